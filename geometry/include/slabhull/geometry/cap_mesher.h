@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/array.h"
+#include "slabhull/core/patch.h"
+#include "slabhull/core/point.h"
+#include "slabhull/geometry/size_field.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+namespace slabhull {
+
+struct CapOptions {
+    Grading grading;
+    double radius_edge = 1.414; ///< largest ratio of circumradius to shortest edge (D = 3)
+    double min_dihedral = 10;   ///< wanted dihedral angle in degrees (D = 3)
+    double min_angle = 20;      ///< wanted angle in degrees (D = 2)
+};
+
+/// A mesh of the domain inside a surface.
+template<int D>
+struct CapMesh {
+    Array<Point<D>> points; ///< those of the surface first, in order and bit for bit, then new interior ones
+    Array<Simplex<D>> cells;
+    Array<Neighbors<D>> neighbors; ///< no_index across the boundary
+};
+
+/// Meshes the domain bounded by `surface`, whose facets all come back untouched, with nothing added on them.
+/// D = 3: TetGen in a child process, so that its crashes are ours to report. D = 2: a constrained Delaunay
+/// triangulation (CGAL) refined without ever splitting a boundary edge.
+/// Needs: a closed, outward oriented, embedded surface (see require_domain_boundary()) in which every point is used.
+/// Throws GeometryError when the mesher fails or its boundary differs from the surface; it names the facets.
+/// Deterministic.
+template<int D>
+CapMesh<D> mesh_cap(const Surface<D>& surface, const CapOptions& options);
+
+template<>
+CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options);
+template<>
+CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options);
+
+/// Compares the boundary of a cap mesh with the surface it was asked for, facet by facet, orientation included,
+/// and that every cell is positively oriented. Throws GeometryError naming what is missing, added or inverted.
+template<int D>
+void verify_cap(const CapMesh<D>& mesh, const Surface<D>& surface);
+
+extern template void verify_cap<2>(const CapMesh<2>&, const Surface<2>&);
+extern template void verify_cap<3>(const CapMesh<3>&, const Surface<3>&);
+
+} // namespace slabhull

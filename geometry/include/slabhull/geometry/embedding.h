@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/point.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace slabhull {
+
+/// Two facets of a surface that meet elsewhere than in the vertices and edges they share.
+template<int D>
+struct Crossing {
+    Index first = no_index;
+    Index second = no_index; ///< first < second
+    Point<D> near{};         ///< a point close to where they meet
+};
+
+/// All pairs of crossing facets (at most `limit`), sorted; decided exactly. D = 2: segments, D = 3: triangles.
+/// Touching, overlapping, folded (two facets on the same side of a shared edge) and degenerate facets count.
+/// Coincident vertices with different numbers are seen as touching.
+/// Cost: near-linear for well-shaped surfaces. The result does not depend on the number of threads.
+template<int D>
+std::vector<Crossing<D>> find_crossings(const Surface<D>& surface, std::size_t limit = 100);
+
+/// How facets are called in messages.
+struct FacetNaming {
+    std::string where;                   ///< put first, such as "room.msh" or "at t = 0.25"
+    std::vector<std::int64_t> numbers;   ///< the user's number of each facet; empty: counted from 0
+};
+
+/// Throws unless `surface` bounds a domain: finite coordinates, every vertex used, every ridge in exactly two facets
+/// of opposite orientation, one fan of facets at each vertex, no crossing facets, and components nested so that the
+/// domain lies on the inner side of every one (a body outside the box is refused).
+/// The error is a GeometryError or, with `failure` = input, an InputError; it names facets by number and patch.
+template<int D>
+void require_domain_boundary(const Surface<D>& surface, const FacetNaming& naming, bool is_input);
+
+extern template std::vector<Crossing<2>> find_crossings<2>(const Surface<2>&, std::size_t);
+extern template std::vector<Crossing<3>> find_crossings<3>(const Surface<3>&, std::size_t);
+extern template void require_domain_boundary<2>(const Surface<2>&, const FacetNaming&, bool);
+extern template void require_domain_boundary<3>(const Surface<3>&, const FacetNaming&, bool);
+
+} // namespace slabhull

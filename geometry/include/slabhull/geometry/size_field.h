@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/array.h"
+#include "slabhull/core/point.h"
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace slabhull {
+
+/// How fast the spacing grows away from the boundary, and where it stops.
+struct Grading {
+    double growth = 0.3; ///< increase of the spacing per unit of distance
+    double largest = std::numeric_limits<double>::infinity();
+};
+
+/// Wanted spacing h(x) inside a domain, from the spacing of its boundary:
+/// h(x) = min(largest, min over boundary vertices y of h_y + growth |x - y|),
+/// kept in a tree of boxes (quadtree, octree) each about as large as the spacing in it.
+/// Cost: building is near-linear in the number of boxes; a query is a descent of the tree.
+template<int D>
+class SizeField {
+public:
+    /// `spacing` is that of each point, positive.
+    SizeField(std::span<const Point<D>> points, std::span<const double> spacing, const Grading& grading);
+
+    double operator()(const Point<D>& x) const;
+
+private:
+    static constexpr std::size_t fan = std::size_t{1} << D;
+    struct Box {
+        Index children = no_index; ///< the first of 2^D in a row, or no_index for a leaf
+        float size = 0;            ///< spacing at the centre of a leaf
+    };
+    Point<D> corner_{};
+    double edge_ = 0;
+    std::vector<Box> boxes_;
+};
+
+/// Spacing of each vertex of a boundary: the mean length of the facet edges at it.
+template<int D>
+std::vector<double> boundary_spacing(std::span<const Point<D>> points, std::span<const Facet<D>> facets);
+
+extern template class SizeField<2>;
+extern template class SizeField<3>;
+extern template std::vector<double> boundary_spacing<2>(std::span<const Point<2>>, std::span<const Facet<2>>);
+extern template std::vector<double> boundary_spacing<3>(std::span<const Point<3>>, std::span<const Facet<3>>);
+
+} // namespace slabhull

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/array.h"
+#include "slabhull/core/patch.h"
+#include "slabhull/core/point.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace slabhull {
+
+/// Part of the boundary of a slab; the values are those in files.
+enum class Region : int { initial = 0, intermediate = 1, terminating = 2 };
+
+/// The boundary of one space-time slab: a closed D-manifold of D-simplices in R^(D+1), time last.
+///
+/// Cells are stored in the order initial cap, side, terminating cap; the side by layer, then by boundary facet,
+/// then by place in the prism's split. So region, layer and patch of a cell follow from its number and cost nothing.
+/// Each simplex is ordered so that its normal N, det[e_1 .. e_D, N] > 0, points out of the slab.
+template<int D>
+struct Hull {
+    Array<Point<D + 1>> points;
+    Array<Simplex<D>> cells;
+    Array<Neighbors<D>> neighbors; ///< closed: every entry names a cell
+    Array<PersistentId> vertex_ids;
+    Array<TrackId> track_ids;
+
+    std::size_t initial_cells = 0;
+    std::size_t side_cells = 0;
+    std::size_t layers = 0;
+    std::size_t cells_per_prism = 1;
+    std::vector<PatchNumber> facet_patch; ///< of each boundary facet that is swept
+    PatchList patches;
+
+    int slab = 0;
+    std::array<double, 2> time{}; ///< start and end of the slab
+
+    std::size_t terminating_begin() const { return initial_cells + side_cells; }
+
+    Region region(std::size_t cell) const {
+        if (cell < initial_cells) {
+            return Region::initial;
+        }
+        return cell < terminating_begin() ? Region::intermediate : Region::terminating;
+    }
+    /// Time layer of a side cell from 0, -1 for cap cells.
+    int layer(std::size_t cell) const {
+        return region(cell) == Region::intermediate ? static_cast<int>(prism(cell) / facet_patch.size()) : -1;
+    }
+    /// Patch of a side cell, 0 for cap cells.
+    PatchNumber patch(std::size_t cell) const {
+        return region(cell) == Region::intermediate ? facet_patch[prism(cell) % facet_patch.size()] : 0;
+    }
+
+private:
+    std::size_t prism(std::size_t cell) const { return (cell - initial_cells) / cells_per_prism; }
+};
+
+} // namespace slabhull
