@@ -7,6 +7,9 @@ target_compile_options(slabhull_settings INTERFACE -ffp-contract=off)
 
 add_library(slabhull_warnings INTERFACE)
 target_compile_options(slabhull_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(slabhull_warnings INTERFACE -Wno-restrict) # gcc bug 105651: false alarms on std::string +
+endif()
 if(SLABHULL_WERROR)
     target_compile_options(slabhull_warnings INTERFACE -Werror)
 endif()

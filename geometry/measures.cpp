@@ -1,1 +1,304 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/geometry/measures.h"
+
+#include "slabhull/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace slabhull {
+
+namespace {
+
+constexpr std::size_t cells_per_piece = 1 << 15;
+
+template<std::size_t N>
+std::array<double, N> minus(const std::array<double, N>& a, const std::array<double, N>& b) {
+    std::array<double, N> difference;
+    for (std::size_t i = 0; i < N; ++i) {
+        difference[i] = a[i] - b[i];
+    }
+    return difference;
+}
+
+template<std::size_t N>
+double dot(const std::array<double, N>& a, const std::array<double, N>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < N; ++i) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+Point<3> cross(const Point<3>& a, const Point<3>& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The cross product of R^4: det[a, b, c, result] > 0. Its components share the 2 x 2 minors of a and b.
+Point<4> cross(const Point<4>& a, const Point<4>& b, const Point<4>& c) {
+    const auto minor = [&](std::size_t i, std::size_t j) { return a[i] * b[j] - a[j] * b[i]; };
+    const double xy = minor(0, 1), xz = minor(0, 2), xt = minor(0, 3);
+    const double yz = minor(1, 2), yt = minor(1, 3), zt = minor(2, 3);
+    return {-(yz * c[3] - yt * c[2] + zt * c[1]), xz * c[3] - xt * c[2] + zt * c[0],
+            -(xy * c[3] - xt * c[1] + yt * c[0]), xy * c[2] - xz * c[1] + yz * c[0]};
+}
+
+template<std::size_t N>
+std::array<double, N> scaled(std::array<double, N> a, double factor) {
+    for (double& x : a) {
+        x *= factor;
+    }
+    return a;
+}
+
+/// Sum with Neumaier's correction (Zeitschrift fuer angewandte Mathematik und Mechanik 54, 1974).
+class Sum {
+public:
+    void add(double x) {
+        const double next = sum_ + x;
+        lost_ += std::abs(sum_) >= std::abs(x) ? (sum_ - next) + x : (x - next) + sum_;
+        sum_ = next;
+    }
+    void add(const Sum& other) {
+        add(other.sum_);
+        lost_ += other.lost_;
+    }
+    double value() const { return sum_ + lost_; }
+
+private:
+    double sum_ = 0;
+    double lost_ = 0;
+};
+
+/// The extreme cosines of dihedral angles, kept as cos |cos|: it grows with the cosine and needs no square root.
+struct CosineRange {
+    double smallest = 1;
+    double largest = -1;
+
+    void add(double s) {
+        smallest = std::min(smallest, s);
+        largest = std::max(largest, s);
+    }
+    void add(const CosineRange& other) {
+        add(other.smallest);
+        add(other.largest);
+    }
+    /// The smallest cosine belongs to the largest angle.
+    AngleRange angles() const { return {degrees(largest), degrees(smallest)}; }
+
+private:
+    static double degrees(double s) {
+        const double cosine = std::copysign(std::sqrt(std::min(1.0, std::abs(s))), s);
+        return std::acos(cosine) * (180 / std::numbers::pi);
+    }
+};
+
+/// Gram matrix of the gradients of the barycentric coordinates, but for a positive factor: the adjugate of the Gram
+/// matrix of the edges from corner 0, and the row that makes all rows sum to zero.
+template<int D>
+using GradientGram = std::array<std::array<double, D + 1>, D + 1>;
+
+template<int D, std::size_t N>
+GradientGram<D> gradient_gram(const std::array<std::array<double, N>, D + 1>& corners) {
+    GradientGram<D> a{};
+    const auto u = minus(corners[1], corners[0]);
+    const auto v = minus(corners[2], corners[0]);
+    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v);
+    if constexpr (D == 2) {
+        a[1] = {0, vv, -uv};
+        a[2] = {0, -uv, uu};
+    } else {
+        const auto w = minus(corners[3], corners[0]);
+        const double uw = dot(u, w), vw = dot(v, w), ww = dot(w, w);
+        const double a12 = uw * vw - uv * ww, a13 = uv * vw - uw * vv, a23 = uv * uw - uu * vw;
+        a[1] = {0, vv * ww - vw * vw, a12, a13};
+        a[2] = {0, a12, uu * ww - uw * uw, a23};
+        a[3] = {0, a13, a23, uu * vv - uv * uv};
+    }
+    for (std::size_t i = 1; i <= D; ++i) {
+        for (std::size_t j = 1; j <= D; ++j) {
+            a[0][i] -= a[j][i];
+        }
+        a[i][0] = a[0][i];
+        a[0][0] -= a[0][i];
+    }
+    return a;
+}
+
+/// cos |cos| of the angle between facets i and j: the gradients are normal to the facets, pointing inwards.
+template<int D, std::size_t N>
+CosineRange cosines(const std::array<std::array<double, N>, D + 1>& corners) {
+    const GradientGram<D> a = gradient_gram<D>(corners);
+    CosineRange range;
+    for (std::size_t i = 0; i <= D; ++i) {
+        for (std::size_t j = i + 1; j <= D; ++j) {
+            const double square = a[i][i] * a[j][j];
+            if (!(square > 0)) {
+                return {-1, 1};
+            }
+            range.add(std::clamp(-a[i][j] * std::abs(a[i][j]) / square, -1.0, 1.0));
+        }
+    }
+    return range;
+}
+
+template<int D>
+class HullSums {
+public:
+    void add(const std::array<Point<D + 1>, D + 1>& corners, const Point<D + 1>& origin) {
+        const Point<D + 1> normal = simplex_normal<D>(corners);
+        measure_.add(std::sqrt(dot(normal, normal)));
+        enclosed_.add(dot(minus(corners[0], origin), normal)); // x.N is the same all over the simplex
+        for (std::size_t k = 0; k <= D; ++k) {
+            closure_[k].add(normal[k]);
+        }
+        cosines_.add(cosines<D>(corners));
+    }
+    void add(const HullSums& other) {
+        measure_.add(other.measure_);
+        enclosed_.add(other.enclosed_);
+        for (std::size_t k = 0; k <= D; ++k) {
+            closure_[k].add(other.closure_[k]);
+        }
+        cosines_.add(other.cosines_);
+    }
+    Measures<D> value() const {
+        Measures<D> result{measure_.value(), {}, enclosed_.value() / (D + 1), cosines_.angles()};
+        for (std::size_t k = 0; k <= D; ++k) {
+            result.closure[k] = closure_[k].value();
+        }
+        return result;
+    }
+
+private:
+    Sum measure_;
+    Sum enclosed_;
+    std::array<Sum, D + 1> closure_;
+    CosineRange cosines_;
+};
+
+/// Sums `add(c, sums)` over cells in fixed pieces, then the pieces in order.
+template<class Sums, class Add>
+Sums sum_by_pieces(std::size_t count, const Sums& zero, const Add& add) {
+    std::vector<Sums> pieces((count + cells_per_piece - 1) / cells_per_piece, zero);
+    parallel_for(count, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+        Sums sums = zero;
+        for (std::size_t c = begin; c < end; ++c) {
+            add(c, sums);
+        }
+        pieces[begin / cells_per_piece] = sums;
+    });
+    Sums total = zero;
+    for (const Sums& piece : pieces) {
+        for (std::size_t g = 0; g < total.size(); ++g) {
+            total[g].add(piece[g]);
+        }
+    }
+    return total;
+}
+
+class SolidSums {
+public:
+    void add(double measure, const CosineRange& range) {
+        measure_.add(measure);
+        cosines_.add(range);
+    }
+    void add(const SolidSums& other) {
+        measure_.add(other.measure_);
+        cosines_.add(other.cosines_);
+    }
+    SolidMeasures value() const { return {measure_.value(), cosines_.angles()}; }
+
+private:
+    Sum measure_;
+    CosineRange cosines_;
+};
+
+} // namespace
+
+template<int D>
+Point<D + 1> simplex_normal(const std::array<Point<D + 1>, D + 1>& corners) {
+    const auto u = minus(corners[1], corners[0]);
+    const auto v = minus(corners[2], corners[0]);
+    if constexpr (D == 2) {
+        return scaled(cross(u, v), 1.0 / 2);
+    } else {
+        return scaled(cross(u, v, minus(corners[3], corners[0])), 1.0 / 6);
+    }
+}
+
+template<int D>
+double signed_measure(const std::array<Point<D>, D + 1>& corners) {
+    const auto u = minus(corners[1], corners[0]);
+    if constexpr (D == 1) {
+        return u[0];
+    } else {
+        const auto v = minus(corners[2], corners[0]);
+        if constexpr (D == 2) {
+            return (u[0] * v[1] - u[1] * v[0]) / 2;
+        } else {
+            return dot(cross(u, v), minus(corners[3], corners[0])) / 6;
+        }
+    }
+}
+
+template<int D, int N>
+AngleRange dihedral_angles(const std::array<Point<N>, D + 1>& corners) {
+    return cosines<D>(corners).angles();
+}
+
+template<int D>
+std::vector<Measures<D>> measure_groups(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+                                        std::span<const std::uint8_t> group, std::size_t group_count) {
+    const Point<D + 1> origin = points.empty() ? Point<D + 1>{} : points.front();
+    const auto sums = sum_by_pieces(cells.size(), std::vector<HullSums<D>>(group_count),
+                                    [&](std::size_t c, std::vector<HullSums<D>>& to) {
+                                        to[group[c]].add(corners_of<D, D + 1>(cells[c], points), origin);
+                                    });
+    std::vector<Measures<D>> result;
+    for (const HullSums<D>& sum : sums) {
+        result.push_back(sum.value());
+    }
+    return result;
+}
+
+template<int D>
+Measures<D> measure_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
+    const Point<D + 1> origin = points.empty() ? Point<D + 1>{} : points.front();
+    return sum_by_pieces(cells.size(), std::array<HullSums<D>, 1>{},
+                         [&](std::size_t c, std::array<HullSums<D>, 1>& to) {
+                             to[0].add(corners_of<D, D + 1>(cells[c], points), origin);
+                         })[0]
+        .value();
+}
+
+template<int D>
+SolidMeasures measure_solid(std::span<const Point<D>> points, std::span<const Simplex<D>> cells) {
+    return sum_by_pieces(cells.size(), std::array<SolidSums, 1>{},
+                         [&](std::size_t c, std::array<SolidSums, 1>& to) {
+                             const auto corners = corners_of<D, D>(cells[c], points);
+                             to[0].add(signed_measure<D>(corners), cosines<D>(corners));
+                         })[0]
+        .value();
+}
+
+template Point<3> simplex_normal<2>(const std::array<Point<3>, 3>&);
+template Point<4> simplex_normal<3>(const std::array<Point<4>, 4>&);
+template double signed_measure<1>(const std::array<Point<1>, 2>&);
+template double signed_measure<2>(const std::array<Point<2>, 3>&);
+template double signed_measure<3>(const std::array<Point<3>, 4>&);
+template AngleRange dihedral_angles<2, 2>(const std::array<Point<2>, 3>&);
+template AngleRange dihedral_angles<2, 3>(const std::array<Point<3>, 3>&);
+template AngleRange dihedral_angles<3, 3>(const std::array<Point<3>, 4>&);
+template AngleRange dihedral_angles<3, 4>(const std::array<Point<4>, 4>&);
+template Measures<2> measure_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
+template Measures<3> measure_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
+template std::vector<Measures<2>> measure_groups<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
+                                                    std::span<const std::uint8_t>, std::size_t);
+template std::vector<Measures<3>> measure_groups<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
+                                                    std::span<const std::uint8_t>, std::size_t);
+template SolidMeasures measure_solid<2>(std::span<const Point<2>>, std::span<const Simplex<2>>);
+template SolidMeasures measure_solid<3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
+
+} // namespace slabhull

@@ -1,1 +1,206 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/geometry/size_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace slabhull {
+
+namespace {
+
+/// Boxes are never halved more often: the digits of a double are used up, whatever the ratio of sizes.
+constexpr int max_depth = 48;
+
+template<int D>
+double distance(const Point<D>& a, const Point<D>& b) {
+    double square = 0;
+    for (std::size_t k = 0; k < D; ++k) {
+        square += (a[k] - b[k]) * (a[k] - b[k]);
+    }
+    return std::sqrt(square);
+}
+
+} // namespace
+
+/// Builds the boxes depth first. Each box inherits from its parent the sources that may rule some part of it,
+/// so that the lists shrink with the boxes: what is far away and coarse is discarded for a whole subtree at
+/// once.
+template<int D>
+class SizeField<D>::Builder {
+public:
+    explicit Builder(SizeField& field) : field_{field}, growth_{field.grading_.growth} {}
+
+    void build() {
+        candidates_.reserve(4 * field_.sources_.size());
+        for (std::size_t i = 0; i < field_.sources_.size(); ++i) {
+            candidates_.push_back({field_.sources_[i], static_cast<Index>(i)});
+        }
+        field_.boxes_.assign(1, Box{});
+        Point<D> centre = field_.corner_;
+        for (double& x : centre) {
+            x += field_.edge_ / 2;
+        }
+        fill(0, centre, field_.edge_ / 2, 0, candidates_.size(), 0);
+    }
+
+private:
+    struct Candidate {
+        Source source;
+        Index index;
+    };
+
+    /// Fills the box with that centre and half edge, given the candidates [begin, end) of its parent.
+    void fill(Index box, const Point<D>& centre, double half, std::size_t begin, std::size_t end, int depth) {
+        const double radius = half * std::sqrt(static_cast<double>(D));
+        const std::size_t best = find_best(centre, begin, end);
+        const std::size_t kept = candidates_.size();
+        if (best == end || !keep_rivals(begin, end, values_[best - begin], growth_ * radius)) {
+            return; // `largest` rules the whole box
+        }
+        const double here = std::min(values_[best - begin], field_.grading_.largest);
+        const bool alone = candidates_.size() == kept + 1;
+        if (alone || depth == max_depth || 2 * growth_ * radius <= leaf_excess * here) {
+            field_.boxes_[box].source = candidates_[best].index;
+        } else {
+            split(box, centre, half, kept, depth);
+        }
+        candidates_.resize(kept);
+    }
+
+    void split(Index box, const Point<D>& centre, double half, std::size_t kept, int depth) {
+        const std::size_t end = candidates_.size();
+        const Index first = checked_index(field_.boxes_.size(), "boxes of a size field");
+        checked_index(first + fan, "boxes of a size field");
+        field_.boxes_[box].children = first;
+        field_.boxes_.resize(first + fan, Box{});
+        for (std::size_t child = 0; child < fan; ++child) {
+            Point<D> middle = centre;
+            for (std::size_t k = 0; k < D; ++k) {
+                middle[k] += ((child >> k) & 1) != 0 ? half / 2 : -half / 2;
+            }
+            fill(first + static_cast<Index>(child), middle, half / 2, kept, end, depth + 1);
+        }
+    }
+
+    /// The candidate with the least spacing at `centre`, or `end`; leaves the spacings in values_.
+    std::size_t find_best(const Point<D>& centre, std::size_t begin, std::size_t end) {
+        values_.resize(std::max(values_.size(), end - begin));
+        std::size_t best = end;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = begin; i < end; ++i) {
+            const Source& source = candidates_[i].source;
+            const double value = source.spacing + growth_ * distance<D>(source.at, centre);
+            values_[i - begin] = value;
+            if (value < least) {
+                least = value;
+                best = i;
+            }
+        }
+        return best;
+    }
+
+    /// Appends those candidates that may rule some part of a box across which a spacing varies by `sway`
+    /// either way; false when there is none.
+    bool keep_rivals(std::size_t begin, std::size_t end, double best, double sway) {
+        const double bound = std::min(best + 2 * sway, field_.grading_.largest + sway);
+        const std::size_t before = candidates_.size();
+        for (std::size_t i = begin; i < end; ++i) {
+            if (values_[i - begin] <= bound) {
+                const Candidate rival = candidates_[i];
+                candidates_.push_back(rival);
+            }
+        }
+        return candidates_.size() > before;
+    }
+
+    /// With an excess e over the spacing at the centre of a leaf, that over h(x) is e / (1 - e / 2).
+    static constexpr double leaf_excess = tolerance / (1 + tolerance / 2);
+
+    SizeField& field_;
+    double growth_;
+    std::vector<Candidate> candidates_; ///< a stack: the lists of the boxes on the way down
+    std::vector<double> values_;
+};
+
+template<int D>
+SizeField<D>::SizeField(std::span<const Point<D>> points, std::span<const double> spacing,
+                        const Grading& grading)
+    : grading_{grading} {
+    if (points.empty()) {
+        boxes_.assign(1, Box{});
+        return;
+    }
+    Point<D> low = points[0];
+    Point<D> high = points[0];
+    sources_.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t k = 0; k < D; ++k) {
+            low[k] = std::min(low[k], points[i][k]);
+            high[k] = std::max(high[k], points[i][k]);
+        }
+        sources_.push_back({points[i], spacing[i]});
+    }
+    corner_ = low;
+    for (std::size_t k = 0; k < D; ++k) {
+        edge_ = std::max(edge_, high[k] - low[k]);
+    }
+    Builder{*this}.build();
+}
+
+template<int D>
+Index SizeField<D>::leaf_at(const Point<D>& x) const {
+    // The binary digits of x, counted in finest boxes, spell the way down.
+    constexpr auto finest = static_cast<double>(std::uint64_t{1} << max_depth);
+    std::array<std::uint64_t, D> place;
+    for (std::size_t k = 0; k < D; ++k) {
+        const double along = edge_ > 0 ? (x[k] - corner_[k]) / edge_ * finest : 0.0;
+        place[k] = static_cast<std::uint64_t>(std::min(std::max(0.0, along), finest - 1));
+    }
+    Index box = 0;
+    for (int level = max_depth - 1; boxes_[box].children != no_index; --level) {
+        Index child = 0;
+        for (std::size_t k = 0; k < D; ++k) {
+            child |= static_cast<Index>((place[k] >> level) & 1) << k;
+        }
+        box = boxes_[box].children + child;
+    }
+    return box;
+}
+
+template<int D>
+double SizeField<D>::operator()(const Point<D>& x) const {
+    const Index ruler = boxes_[leaf_at(x)].source;
+    if (ruler == no_index) {
+        return grading_.largest;
+    }
+    const Source& source = sources_[ruler];
+    return std::min(grading_.largest, source.spacing + grading_.growth * distance<D>(source.at, x));
+}
+
+template<int D>
+std::vector<double> boundary_spacing(std::span<const Point<D>> points, std::span<const Facet<D>> facets) {
+    std::vector<double> sum(points.size(), 0.0);
+    std::vector<Index> count(points.size(), 0);
+    for (const Facet<D>& facet : facets) {
+        for (std::size_t i = 0; i < D; ++i) {
+            for (std::size_t j = 0; j < D; ++j) {
+                if (i != j) {
+                    sum[facet[i]] += distance<D>(points[facet[i]], points[facet[j]]);
+                    ++count[facet[i]];
+                }
+            }
+        }
+    }
+    for (std::size_t v = 0; v < sum.size(); ++v) {
+        sum[v] = count[v] > 0 ? sum[v] / count[v] : std::numeric_limits<double>::infinity();
+    }
+    return sum;
+}
+
+template class SizeField<2>;
+template class SizeField<3>;
+template std::vector<double> boundary_spacing<2>(std::span<const Point<2>>, std::span<const Facet<2>>);
+template std::vector<double> boundary_spacing<3>(std::span<const Point<3>>, std::span<const Facet<3>>);
+
+} // namespace slabhull

@@ -1,1 +1,93 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/io/atomic_file.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/io/files.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace slabhull::io {
+
+namespace {
+
+std::filesystem::path followed(const std::filesystem::path& path) {
+    std::error_code no_such_file;
+    const auto target = std::filesystem::canonical(path, no_such_file);
+    return no_such_file ? path : target;
+}
+
+/// Beside the target, or rename() would copy between disks; told apart by process and count.
+std::filesystem::path temporary_beside(const std::filesystem::path& target) {
+    static std::atomic<unsigned> count{0};
+    auto name = target.filename();
+    name += fmt::format(".{}-{}.part", ::getpid(), count++);
+    return target.parent_path() / name;
+}
+
+} // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& path)
+    : path_{path}, target_{followed(path)}, temporary_{temporary_beside(target_)} {
+    struct stat status {};
+    if (::stat(target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+        throw OutputError(fmt::format("{}: cannot be written: it is not a regular file", path_.string()));
+    }
+    constexpr mode_t for_all = 0666; // the umask takes away what the user does not want
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, for_all);
+    if (descriptor_ < 0) {
+        fail("cannot be created");
+    }
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+    if (!temporary_.empty()) {
+        ::unlink(temporary_.c_str());
+    }
+}
+
+void AtomicFile::write(const void* bytes, std::size_t size) {
+    const auto* next = static_cast<const char*>(bytes);
+    while (size > 0) {
+        const ssize_t written = ::write(descriptor_, next, size);
+        if (written < 0 && errno != EINTR) {
+            fail("cannot be written");
+        }
+        const auto step = static_cast<std::size_t>(std::max<ssize_t>(0, written));
+        next += step;
+        size -= step;
+    }
+}
+
+void AtomicFile::commit() {
+    if (::fdatasync(descriptor_) != 0) {
+        fail("cannot be written");
+    }
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0 || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+        fail("cannot be put in place");
+    }
+    temporary_.clear();
+}
+
+void AtomicFile::fail(const char* doing) const {
+    throw OutputError(fmt::format("{}: {}: {}", path_.string(), doing, std::strerror(errno)));
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    AtomicFile file{path};
+    file.write(text);
+    file.commit();
+}
+
+} // namespace slabhull::io

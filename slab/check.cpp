@@ -1,1 +1,217 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/check.h"
+
+#include "check_shape.h"
+#include "hull_view.h"
+#include "slabhull/topology/homology.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace slabhull {
+
+namespace {
+
+/// Sum of normals, relative to the sum of their lengths, that rounding can leave.
+constexpr double closure_tolerance = 1e-10;
+
+/// The order of the checks, and what each needs of those before it.
+template<int D>
+class HullCheck {
+public:
+    HullCheck(const HullColumns<D>& hull, const CheckOptions& options)
+        : options_{options}, findings_{report_, options_}, view_{hull, {}, {}, {}, {}} {}
+
+    HullReport run() {
+        report_.dimension = D;
+        check_column_lengths(view_.hull, findings_);
+        if (!check_indices<D>(view_.cells(), view_.points().size(), findings_)) {
+            findings_.skip("all but the indices", "there are no cells, or cells name vertices that do not exist");
+            return std::move(report_);
+        }
+        if (view_.hull.track_id.given()) {
+            view_.track = read_column<TrackId>(view_.hull.track_id);
+        }
+        const bool finite = check_finite<D + 1>(view_.points(), findings_);
+        examine_connectivity();
+        compare_numbering();
+        if (finite) {
+            examine_shape();
+        } else {
+            findings_.skip("shape, regions, tracks", "there are coordinates that are not finite");
+        }
+        return std::move(report_);
+    }
+
+private:
+    void examine_connectivity() {
+        view_.adjacency = build_adjacency<D>(view_.cells(), view_.points().size());
+        const ManifoldReport manifold = examine_manifold<D>(view_.cells(), view_.points().size(), view_.adjacency,
+                                                            {options_.most_findings});
+        translate(manifold, {}, findings_);
+        report_.counts = manifold.counts;
+        manifold_ = manifold.clean();
+        sealed_ = view_.adjacency.defects.empty();
+        if (options_.betti && manifold_) {
+            const BettiNumbers<D> betti =
+                betti_numbers<D>(view_.cells(), view_.points().size(), view_.adjacency.neighbors);
+            report_.betti.assign(betti.begin(), betti.end());
+        } else if (options_.betti) {
+            findings_.skip("Betti numbers", "the hull is not a manifold");
+        }
+    }
+
+    /// Claims that need no geometry.
+    void compare_numbering() {
+        if (view_.hull.vertex_id.given()) {
+            check_vertex_ids(view_, findings_);
+        }
+        if (view_.hull.neighbors.given()) {
+            check_neighbors(view_, findings_);
+        }
+        if (view_.hull.cell_of_vertex.given()) {
+            check_cell_of_vertex(view_, findings_);
+        }
+    }
+
+    void examine_shape() {
+        check_coincident<D + 1>(view_.points(), findings_);
+        check_degenerate<D, D + 1>(view_.points(), view_.cells(), findings_);
+        const bool caps = check_regions(view_, findings_);
+        report_.time = view_.time;
+        view_.region.resize(view_.cells().size(), 1); // without a duration there are no regions
+        measure();
+        if (!caps || findings_.any({Defect::cap_not_flat, Defect::time_outside_slab})) {
+            findings_.skip("caps, tracks, patches, layers", "the caps are not in place");
+            return;
+        }
+        check_cap_cells(view_, report_.enclosed < 0 ? -1.0 : 1.0, findings_);
+        examine_claims();
+        examine_boundary();
+    }
+
+    void measure() {
+        const auto regions = measure_groups<D>(view_.points(), view_.cells(), view_.region, 3);
+        Point<D + 1> closure{};
+        for (std::size_t r = 0; r < 3; ++r) {
+            report_.cells_by_region[r] = static_cast<std::size_t>(
+                std::count(view_.region.begin(), view_.region.end(), static_cast<std::uint8_t>(r)));
+            report_.measure_by_region[r] = regions[r].measure;
+            report_.measure += regions[r].measure;
+            report_.enclosed += regions[r].enclosed;
+            report_.angles.smallest = std::min(report_.angles.smallest, regions[r].angles.smallest);
+            report_.angles.largest = std::max(report_.angles.largest, regions[r].angles.largest);
+            for (std::size_t k = 0; k <= D; ++k) {
+                closure[k] += regions[r].closure[k];
+            }
+        }
+        double square = 0;
+        for (const double x : closure) {
+            square += x * x;
+        }
+        report_.closure = std::sqrt(square);
+        judge_measures();
+    }
+
+    void judge_measures() {
+        if (!sealed_) {
+            findings_.skip("closure, enclosed measure", "there are facets at fault");
+            return;
+        }
+        if (!(report_.closure <= closure_tolerance * report_.measure)) {
+            findings_.other(Defect::not_closed, {},
+                            fmt::format("the normals sum to a vector of length {:.3g}; the hull's measure is {:.6g}",
+                                        report_.closure, report_.measure));
+        } else if (!(report_.enclosed > 0)) {
+            findings_.other(Defect::inward_orientation, {},
+                            fmt::format("the hull encloses {:.6g}: its simplices face inwards", report_.enclosed));
+        }
+    }
+
+    void examine_claims() {
+        if (view_.hull.patch.given()) {
+            report_.cells_by_patch = check_patches(view_, findings_);
+        }
+        if (view_.hull.layer.given()) {
+            report_.layers = check_layers(view_, findings_);
+        }
+    }
+
+    void examine_boundary() {
+        if (!sealed_) {
+            findings_.skip("Euler characteristic, the caps' boundaries", "there are facets at fault");
+        } else if (manifold_) {
+            check_euler(view_, report_.counts, findings_);
+        }
+        if (view_.track.empty()) {
+            findings_.skip("tracks, the caps' boundaries", "there is no array track_id");
+            return;
+        }
+        check_tracks(view_, findings_);
+        if (view_.hull.patch.given()) {
+            check_patch_columns(view_, findings_);
+        }
+        if (!sealed_) {
+            return;
+        }
+        const BoundaryFacets<D> boundary = check_cap_boundaries(view_, findings_);
+        if (findings_.any({Defect::untracked_boundary, Defect::track_repeats_time})) {
+            findings_.skip("comparison of the caps' boundaries", "their tracks are not in order");
+        } else {
+            check_boundary_image(boundary, findings_);
+        }
+    }
+
+    CheckOptions options_;
+    HullReport report_;
+    Findings findings_;
+    HullView<D> view_;
+    bool manifold_ = false;
+    bool sealed_ = false; ///< every facet in two cells that agree
+};
+
+} // namespace
+
+template<int D>
+HullColumns<D> columns_of(const Hull<D>& hull) {
+    const auto by_cell = [&hull](auto value) {
+        return Column<std::int64_t>{hull.cells.size(), 1,
+                                    [value](std::size_t begin, std::size_t end, std::int64_t* out) {
+                                        for (std::size_t c = begin; c < end; ++c) {
+                                            *out++ = value(c);
+                                        }
+                                    }};
+    };
+    HullColumns<D> columns;
+    columns.points = hull.points;
+    columns.cells = hull.cells;
+    columns.region = by_cell([&hull](std::size_t c) { return static_cast<std::int64_t>(hull.region(c)); });
+    columns.patch = by_cell([&hull](std::size_t c) { return std::int64_t{hull.patch(c)}; });
+    columns.layer = by_cell([&hull](std::size_t c) { return std::int64_t{hull.layer(c)}; });
+    columns.neighbors = Column<std::int64_t>{
+        hull.neighbors.size(), D + 1, [&hull](std::size_t begin, std::size_t end, std::int64_t* out) {
+            for (std::size_t c = begin; c < end; ++c) {
+                for (const Index neighbor : hull.neighbors[c]) {
+                    *out++ = neighbor == no_index ? -1 : std::int64_t{neighbor};
+                }
+            }
+        }};
+    columns.vertex_id = Column<std::int64_t>::over(std::span{std::as_const(hull.vertex_ids)});
+    columns.track_id = Column<std::int64_t>::over(std::span{std::as_const(hull.track_ids)});
+    columns.patches = hull.patches;
+    columns.time = hull.time;
+    return columns;
+}
+
+template<int D>
+HullReport check_hull(const HullColumns<D>& hull, const CheckOptions& options) {
+    return HullCheck<D>{hull, options}.run();
+}
+
+template HullColumns<2> columns_of<2>(const Hull<2>&);
+template HullColumns<3> columns_of<3>(const Hull<3>&);
+template HullReport check_hull<2>(const HullColumns<2>&, const CheckOptions&);
+template HullReport check_hull<3>(const HullColumns<3>&, const CheckOptions&);
+
+} // namespace slabhull

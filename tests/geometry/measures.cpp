@@ -1,1 +1,261 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/geometry/measures.h"
+
+#include "slabhull/core/array.h"
+#include "slabhull/core/parallel.h"
+#include "topology/specimens.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+using namespace slabhull;
+
+namespace {
+
+template<std::size_t N>
+double distance(const std::array<double, N>& a, const std::array<double, N>& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < N; ++k) {
+        sum += (a[k] - b[k]) * (a[k] - b[k]);
+    }
+    return std::sqrt(sum);
+}
+
+/// Determinant by elimination with pivoting: another way than the cofactors under test.
+template<std::size_t N>
+double determinant(std::array<std::array<double, N>, N> rows) {
+    double result = 1;
+    for (std::size_t c = 0; c < N; ++c) {
+        std::size_t pivot = c;
+        for (std::size_t r = c; r < N; ++r) {
+            pivot = std::abs(rows[r][c]) > std::abs(rows[pivot][c]) ? r : pivot;
+        }
+        if (rows[pivot][c] == 0) {
+            return 0;
+        }
+        if (pivot != c) {
+            std::swap(rows[pivot], rows[c]);
+            result = -result;
+        }
+        result *= rows[c][c];
+        for (std::size_t r = c + 1; r < N; ++r) {
+            const double factor = rows[r][c] / rows[c][c];
+            for (std::size_t k = c; k < N; ++k) {
+                rows[r][k] -= factor * rows[c][k];
+            }
+        }
+    }
+    return result;
+}
+
+template<std::size_t N>
+double heron(const std::array<std::array<double, N>, 3>& p) {
+    const double a = distance(p[1], p[2]), b = distance(p[2], p[0]), c = distance(p[0], p[1]);
+    const double s = (a + b + c) / 2;
+    return std::sqrt(s * (s - a) * (s - b) * (s - c));
+}
+
+template<std::size_t N>
+double cayley_menger(const std::array<std::array<double, N>, 4>& p) {
+    std::array<std::array<double, 5>, 5> rows{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        rows[i][4] = rows[4][i] = 1;
+        for (std::size_t j = 0; j < 4; ++j) {
+            rows[i][j] = std::pow(distance(p[i], p[j]), 2);
+        }
+    }
+    return std::sqrt(determinant(rows) / 288);
+}
+
+template<int D>
+double reference_measure(const std::array<Point<D + 1>, D + 1>& p) {
+    if constexpr (D == 2) {
+        return heron(p);
+    } else {
+        return cayley_menger(p);
+    }
+}
+
+template<int N, int D>
+std::array<Point<N>, D + 1> random_corners(std::mt19937& random) {
+    std::uniform_real_distribution<double> coordinate{-1, 1};
+    std::array<Point<N>, D + 1> corners;
+    for (Point<N>& corner : corners) {
+        for (double& x : corner) {
+            x = coordinate(random);
+        }
+    }
+    return corners;
+}
+
+template<int D>
+void check_normals() {
+    std::mt19937 random{D};
+    for (int k = 0; k < 200; ++k) {
+        const auto corners = random_corners<D + 1, D>(random);
+        const Point<D + 1> normal = simplex_normal<D>(corners);
+        std::array<Point<D + 1>, D + 1> rows;
+        for (std::size_t i = 0; i < D; ++i) {
+            double along = 0;
+            for (std::size_t x = 0; x <= D; ++x) {
+                rows[i][x] = corners[i + 1][x] - corners[0][x];
+                along += rows[i][x] * normal[x];
+            }
+            CHECK(along == Approx(0).margin(1e-12));
+        }
+        rows[D] = normal;
+        CHECK(determinant(rows) > 0);
+        CHECK(distance(normal, Point<D + 1>{}) == Approx(reference_measure<D>(corners)).epsilon(1e-6));
+    }
+}
+
+constexpr double degrees = 180 / 3.14159265358979323846;
+
+} // namespace
+
+TEST_CASE("the normal is perpendicular, on the positive side, and as long as Heron and Cayley-Menger say") {
+    check_normals<2>();
+    check_normals<3>();
+}
+
+TEST_CASE("in a cap, the normal is the signed measure along time") {
+    std::mt19937 random{4};
+    for (int k = 0; k < 50; ++k) {
+        const auto flat = random_corners<3, 3>(random);
+        std::array<Point<4>, 4> cap;
+        for (std::size_t i = 0; i < 4; ++i) {
+            cap[i] = {flat[i][0], flat[i][1], flat[i][2], 0.5};
+        }
+        const Point<4> normal = simplex_normal<3>(cap);
+        CHECK(normal[0] == 0);
+        CHECK(normal[1] == 0);
+        CHECK(normal[2] == 0);
+        CHECK(normal[3] == Approx(signed_measure<3>(flat)).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("signed measures are those of the unit simplices, and swap sign with two corners") {
+    CHECK(signed_measure<1>({{{1.0}, {3.5}}}) == 2.5);
+    CHECK(signed_measure<2>({{{0, 0}, {1, 0}, {0, 1}}}) == 0.5);
+    CHECK(signed_measure<2>({{{0, 0}, {0, 1}, {1, 0}}}) == -0.5);
+    CHECK(signed_measure<3>({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}) == Approx(1.0 / 6));
+    CHECK(signed_measure<3>({{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}}}) == Approx(-1.0 / 6));
+}
+
+TEST_CASE("angles of known simplices") {
+    const auto right = dihedral_angles<2, 2>({{{0, 0}, {1, 0}, {0, std::sqrt(3.0)}}});
+    CHECK(right.smallest == Approx(30));
+    CHECK(right.largest == Approx(90));
+    const auto regular = dihedral_angles<3, 3>({{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}});
+    CHECK(regular.smallest == Approx(std::acos(1.0 / 3) * degrees));
+    CHECK(regular.largest == Approx(std::acos(1.0 / 3) * degrees));
+    const auto corner = dihedral_angles<3, 3>({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+    CHECK(corner.smallest == Approx(std::acos(1 / std::sqrt(3.0)) * degrees));
+    CHECK(corner.largest == Approx(90));
+    const auto sliver = dihedral_angles<3, 3>({{{1, 0, 1e-3}, {-1, 0, 1e-3}, {0, 1, 0}, {0, -1, 0}}});
+    CHECK(sliver.smallest == Approx(2 * std::atan(1e-3 / 1) / 2 * degrees).epsilon(0.5));
+    CHECK(sliver.largest > 179);
+}
+
+TEST_CASE("angles do not change when a simplex is moved into a space of more dimensions") {
+    std::mt19937 random{9};
+    for (int k = 0; k < 100; ++k) {
+        const auto flat = random_corners<3, 3>(random);
+        const double turn = 0.1 * k;
+        std::array<Point<4>, 4> turned;
+        for (std::size_t i = 0; i < 4; ++i) {
+            turned[i] = {flat[i][0], flat[i][1], std::cos(turn) * flat[i][2], std::sin(turn) * flat[i][2]};
+        }
+        const AngleRange a = dihedral_angles<3, 3>(flat);
+        const AngleRange b = dihedral_angles<3, 4>(turned);
+        CHECK(a.smallest == Approx(b.smallest).epsilon(1e-6));
+        CHECK(a.largest == Approx(b.largest).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("the angles of a triangle in space are by the law of cosines") {
+    std::mt19937 random{10};
+    for (int k = 0; k < 100; ++k) {
+        const auto p = random_corners<3, 2>(random);
+        std::array<double, 3> angles{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double a = distance(p[(i + 1) % 3], p[(i + 2) % 3]);
+            const double b = distance(p[i], p[(i + 1) % 3]), c = distance(p[i], p[(i + 2) % 3]);
+            angles[i] = std::acos((b * b + c * c - a * a) / (2 * b * c)) * degrees;
+        }
+        const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
+        CHECK(dihedral_angles<2, 3>(p).smallest == Approx(*low).epsilon(1e-6));
+        CHECK(dihedral_angles<2, 3>(p).largest == Approx(*high).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("flat and empty simplices have an angle range, not a NaN") {
+    const auto point = dihedral_angles<3, 3>({{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}});
+    CHECK(point.smallest == 0);
+    CHECK(point.largest == 180);
+    const auto flat = dihedral_angles<3, 3>({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}});
+    CHECK(flat.smallest == Approx(0).margin(1e-5));
+    CHECK(flat.largest == Approx(180));
+}
+
+TEST_CASE("the boundary of a simplex closes and encloses its volume, wherever it lies") {
+    std::mt19937 random{12};
+    for (const double shift : {0.0, 1000.0}) {
+        auto corners = random_corners<4, 4>(random);
+        std::array<std::array<double, 4>, 4> edges;
+        for (Point<4>& corner : corners) {
+            corner[3] += shift;
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t x = 0; x < 4; ++x) {
+                edges[i][x] = corners[i + 1][x] - corners[0][x];
+            }
+        }
+        const Array<Point<4>> points(corners.begin(), corners.end());
+        const auto sphere = specimens::sphere<3>();
+        const Measures<3> sums = measure_cells<3>(points, sphere.cells);
+        CHECK(std::abs(sums.enclosed) == Approx(std::abs(determinant(edges)) / 24).epsilon(1e-9));
+        for (const double x : sums.closure) {
+            CHECK(x == Approx(0).margin(1e-12));
+        }
+    }
+}
+
+TEST_CASE("sums are the same bits for any number of threads, and add up over groups") {
+    const auto complex = specimens::torus<3>(25); // several pieces
+    std::mt19937 random{3};
+    Array<Point<4>> points(complex.vertices);
+    for (Point<4>& point : points) {
+        for (double& x : point) {
+            x = std::generate_canonical<double, 53>(random);
+        }
+    }
+    std::vector<std::uint8_t> group(complex.cells.size());
+    for (std::uint8_t& g : group) {
+        g = static_cast<std::uint8_t>(random() % 3);
+    }
+    set_thread_count(1);
+    const Measures<3> alone = measure_cells<3>(points, complex.cells);
+    set_thread_count(3);
+    const Measures<3> together = measure_cells<3>(points, complex.cells);
+    const auto groups = measure_groups<3>(points, complex.cells, group, 3);
+    set_thread_count(0);
+    CHECK(std::memcmp(&alone, &together, sizeof(alone)) == 0);
+    CHECK(groups[0].measure + groups[1].measure + groups[2].measure == Approx(alone.measure).epsilon(1e-14));
+    CHECK(groups[0].enclosed + groups[1].enclosed + groups[2].enclosed == Approx(alone.enclosed).epsilon(1e-12));
+    CHECK(std::min({groups[0].angles.smallest, groups[1].angles.smallest, groups[2].angles.smallest}) ==
+          alone.angles.smallest);
+}
+
+TEST_CASE("compensation keeps small simplices that stand beside huge ones") {
+    // 1e16 + 1 + 1 .. loses every 1 in plain summation.
+    Array<Point<2>> points{{0, 0}, {2e16, 0}, {0, 1}, {0, 0}, {2, 0}, {0, 1}};
+    Array<Simplex<2>> cells{{0, 1, 2}};
+    for (int k = 0; k < 1000; ++k) {
+        cells.push_back({3, 4, 5});
+    }
+    CHECK(measure_solid<2>(points, cells).measure == 1e16 + 1000);
+}

@@ -1,1 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/io/files.h"
+
+#include "io/scratch.h"
+
+#include <catch2/catch.hpp>
+
+using namespace slabhull;
+
+namespace {
+
+io::Soup curve(const std::string& text) {
+    const scratch::Folder folder;
+    return io::read_curve(scratch::put(folder / "curve.dat", text));
+}
+
+std::string refusal(const std::string& text) {
+    const scratch::Folder folder;
+    return scratch::refusal(io::read_curve, scratch::put(folder / "curve.dat", text));
+}
+
+} // namespace
+
+TEST_CASE("A curve is a closed loop of lines in the order of its points", "[io]") {
+    const io::Soup soup = curve("0 0\n1 0.5\n0.1 1\n");
+    REQUIRE(soup.points.size() == 3);
+    CHECK(soup.points[1] == Point<3>{1, 0.5, 0});
+    CHECK(soup.points[2] == Point<3>{0.1, 1, 0});
+    CHECK(soup.simplices[1].vertices == Array<Index>{0, 1, 1, 2, 2, 0});
+    CHECK(soup.top_dimension() == 1);
+}
+
+TEST_CASE("Titles, comments, blank lines, line ends and a repeated last point do not matter", "[io]") {
+    const io::Soup plain = curve("0 0\n1 0.5\n0.1 1\n");
+    for (const char* text :
+         {"NACA 0012\n0 0\n1 0.5\n0.1 1\n", "# made by hand\n\n 0 0\n\n1 0.5\n0.1 1",
+          "0 0\r\n1 0.5\r\n0.1 1\r\n", "0 0\n1 0.5\n0.1 1\n0 0\n", "0\t+0\n  1   .5\n1e-1 1  \n"}) {
+        const io::Soup soup = curve(text);
+        CHECK(soup.points == plain.points);
+        CHECK(soup.simplices[1].vertices == plain.simplices[1].vertices);
+    }
+}
+
+TEST_CASE("A damaged curve file is refused with its line", "[io]") {
+    CHECK_THAT(refusal("0 0\n1 x\n0 1\n"), Catch::Contains("curve.dat: line 2") && Catch::Contains("\"x\""));
+    CHECK_THAT(refusal("0 0\n1\n0 1\n"), Catch::Contains("line 2"));
+    CHECK_THAT(refusal("0 0\n1 2 3\n0 1\n"), Catch::Contains("line 2"));
+    CHECK_THAT(refusal("title\n0 0\n1 nan\n0 1\n"), Catch::Contains("line 3"));
+    CHECK_THAT(refusal("0 0\n1 1\nnan 1\n"), Catch::Contains("line 3"));
+    CHECK_THAT(refusal("0 0\n1 1e999\n0 1\n"), Catch::Contains("line 2"));
+    CHECK_THAT(refusal("0 0\n1 0\n0 0\n"), Catch::Contains("2 points"));
+    CHECK_THAT(refusal(""), Catch::Contains("0 points"));
+    CHECK_THAT(scratch::refusal(io::read_curve, "/nowhere/at.all"), Catch::Contains("No such file"));
+}

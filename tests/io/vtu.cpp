@@ -1,1 +1,190 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "io/scratch.h"
+#include "io/soups.h"
+#include "io/specimens.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/io/files.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+using namespace slabhull;
+using scratch::fixture;
+
+namespace {
+
+const std::string small_text =
+    "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
+    "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n"
+    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 "
+    "1</DataArray>"
+    "</Points>\n<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 3</DataArray>\n"
+    "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4</DataArray>\n"
+    "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10</DataArray></Cells>\n"
+    "<PointData><DataArray type=\"Int8\" Name=\"p\" format=\"ascii\">-1 2 3 4</DataArray></PointData>\n"
+    "</Piece></UnstructuredGrid></VTKFile>\n";
+
+std::string text_refusal(const std::string& from, const std::string& to) {
+    const scratch::Folder folder;
+    return scratch::refusal(io::read_vtu,
+                            scratch::put(folder / "a.vtu", scratch::replaced(small_text, from, to)));
+}
+
+} // namespace
+
+TEST_CASE("meshio's and VTK's files hold the same mesh in each encoding", "[io]") {
+    const io::Soup gmsh = io::read_msh(fixture("coarse_41_binary.msh"));
+    for (const char* name :
+         {"meshio_ascii.vtu", "meshio_base64.vtu", "vtk_ascii.vtu", "vtk_base64.vtu", "vtk_base64_32.vtu",
+          "vtk_raw.vtu", "vtk_raw_32.vtu", "vtk_appended_base64.vtu"}) {
+        CAPTURE(name);
+        const io::Soup soup = io::read_vtu(fixture(name));
+        CHECK(soups::volume(soup) == Approx(1));
+        CHECK(soup.simplices[3].vertices == gmsh.simplices[3].vertices);
+        soups::check_point_data(soup);
+        REQUIRE(soup.find_cell_data("number") != nullptr);
+        CHECK(std::get<Array<std::int64_t>>(soup.find_cell_data("number")->values).at(5) == 5);
+    }
+}
+
+TEST_CASE("VTK's string, id and signed character arrays are read", "[io]") {
+    for (const char* name : {"vtk_ascii.vtu", "vtk_base64.vtu", "vtk_base64_32.vtu", "vtk_raw.vtu",
+                             "vtk_raw_32.vtu", "vtk_appended_base64.vtu"}) {
+        CAPTURE(name);
+        const io::Soup soup = io::read_vtu(fixture(name));
+        REQUIRE(soup.find_field_data("patch_name") != nullptr);
+        CHECK(std::get<std::vector<std::string>>(soup.find_field_data("patch_name")->values) ==
+              std::vector<std::string>{"in let", "walls"});
+        REQUIRE(soup.find_point_data("ids") != nullptr);
+        CHECK(std::get<Array<std::int64_t>>(soup.find_point_data("ids")->values).at(3) == 1000000000003);
+        REQUIRE(soup.find_point_data("signed") != nullptr);
+        CHECK(std::get<Array<std::int64_t>>(soup.find_point_data("signed")->values).at(3) == -3);
+    }
+}
+
+TEST_CASE("A grid of triangles is read", "[io]") {
+    const io::Soup soup = io::read_mesh(fixture("triangles.vtu"));
+    const io::Soup gmsh = io::read_msh(fixture("coarse_41_binary.msh"));
+    CHECK(soup.top_dimension() == 2);
+    CHECK(soup.simplices[2].vertices == gmsh.simplices[2].vertices);
+}
+
+TEST_CASE("A VTU file that we do not read is refused by name", "[io]") {
+    using Catch::Contains;
+    CHECK_THAT(scratch::refusal(io::read_vtu, fixture("meshio_zlib.vtu")), Contains("compressed"));
+    CHECK_THAT(scratch::refusal(io::read_vtu, fixture("vtk_zlib.vtu")), Contains("compressed"));
+    CHECK_THAT(scratch::refusal(io::read_vtu, fixture("vtk_big_endian.vtu")), Contains("big-endian"));
+    CHECK_THAT(scratch::refusal(io::read_vtu, fixture("mixed.vtu")), Contains("is a triangle"));
+    CHECK_THAT(scratch::refusal(io::read_vtu, fixture("quads.msh")), Contains("no VTU file"));
+    CHECK_THAT(text_refusal("UnstructuredGrid\"", "PolyData\""), Contains("PolyData"));
+    CHECK_THAT(text_refusal(">10<", ">12<"), Contains("cell 0 is a hexahedron"));
+    CHECK_THAT(text_refusal("</Piece>", "</Piece><Piece/>"), Contains("exactly one Piece"));
+    CHECK_THAT(text_refusal("\"Int32\" Name=\"c", "\"Bit\" Name=\"c"), Contains("\"Bit\""));
+}
+
+TEST_CASE("Faults in a VTU file are refused with array and cell or point", "[io]") {
+    using Catch::Contains;
+    CHECK_THAT(text_refusal("0 1 2 3", "0 1 2 4"),
+               Contains("connectivity") && Contains("cell 0") && Contains("byte "));
+    CHECK_THAT(text_refusal("0 1 2 3", "0 1 2 -1"), Contains("cell 0"));
+    CHECK_THAT(text_refusal("0 1 2 3", "0 1 2"), Contains("connectivity"));
+    CHECK_THAT(text_refusal("0 1 2 3", "0 1 two 3"), Contains("\"two\""));
+    CHECK_THAT(text_refusal("0 0 1<", "0 0 nan<"), Contains("point 3"));
+    CHECK_THAT(text_refusal("0 0 1<", "0 0 1e999<"), !Catch::Equals(""));
+    CHECK_THAT(text_refusal("0 0 1<", "0 0<"), Contains("points of 3"));
+    CHECK_THAT(text_refusal("Points=\"4\"", "Points=\"1000000000000000000\""),
+               Contains("1000000000000000000 points"));
+    CHECK_THAT(text_refusal("Points=\"4\"", "Points=\"-4\""), Contains("no count"));
+    CHECK_THAT(text_refusal("Cells=\"1\"", "Cells=\"2\""), Contains("2 cells are claimed"));
+    CHECK_THAT(text_refusal("\"ascii\">4<", "\"ascii\">3<"), Contains("has not 4 vertices"));
+    CHECK_THAT(text_refusal("-1 2 3 4", "-1 2 3"), Contains("array \"p\""));
+    CHECK_THAT(text_refusal("-1 2 3 4", "-1 2 3 400"), Contains("400 does not fit"));
+    CHECK_THAT(text_refusal("Name=\"types\"", "Name=\"kinds\""), Contains("\"types\" is missing"));
+    CHECK_THAT(scratch::refusal(io::read_vtu, "/nowhere/a.vtu"), Contains("No such file"));
+}
+
+TEST_CASE("A VTU file cut short anywhere is refused", "[io]") {
+    const scratch::Folder folder;
+    for (const char* name : {"vtk_raw.vtu", "vtk_appended_base64.vtu", "meshio_base64.vtu"}) {
+        CAPTURE(name);
+        const std::string bytes = scratch::bytes_of(fixture(name));
+        const std::size_t tail =
+            std::min(bytes.find("\n  </AppendedData"), bytes.size() - 2); // all data before it
+        for (std::size_t size = 0; size < tail; ++size) {
+            if (scratch::refusal(io::read_vtu, scratch::put(folder / "a.vtu", bytes.substr(0, size)))
+                    .empty()) {
+                FAIL_CHECK("cut to " << size << " of " << bytes.size() << " bytes");
+            }
+        }
+    }
+}
+
+TEST_CASE("A huge claimed size is refused before memory is asked for", "[io]") {
+    const scratch::Folder folder;
+    std::string bytes = scratch::bytes_of(fixture("vtk_raw.vtu"));
+    const std::size_t data = bytes.find('_', bytes.find("<AppendedData")) + 1;
+    for (const std::uint64_t size :
+         {std::uint64_t{1000000000000000000}, ~std::uint64_t{0}, std::uint64_t{100000}}) {
+        bytes.replace(data, sizeof size, scratch::binary(size));
+        CHECK_THAT(scratch::refusal(io::read_vtu, scratch::put(folder / "a.vtu", bytes)),
+                   Catch::Contains("beyond the end"));
+    }
+}
+
+TEST_CASE("Random damage to a VTU file never does more than refuse it", "[io]") {
+    const scratch::Folder folder;
+    for (const char* name :
+         {"vtk_raw.vtu", "vtk_raw_32.vtu", "vtk_appended_base64.vtu", "vtk_ascii.vtu", "meshio_base64.vtu"}) {
+        CHECK(scratch::survive_damage(io::read_vtu, scratch::bytes_of(fixture(name)), folder / "a.vtu",
+                                      1000) > 0);
+    }
+}
+
+TEST_CASE("What is written as VTU comes back bit for bit", "[io]") {
+    const scratch::Folder folder;
+    for (const specimens::Grid& grid :
+         {specimens::Grid{2, 1}, specimens::Grid{2, 9}, specimens::Grid{3, 1}, specimens::Grid{3, 6}}) {
+        io::write_vtu(folder / "a.vtu", grid.columns());
+        const io::Soup soup = io::read_mesh(folder / "a.vtu");
+        const auto top = static_cast<std::size_t>(grid.dimension);
+        CHECK(soup.points == Array<Point<3>>(grid.points.begin(), grid.points.end()));
+        CHECK(soup.simplices[top].vertices == Array<Index>(grid.cells.begin(), grid.cells.end()));
+        REQUIRE(soup.point_data.size() == 2);
+        CHECK(std::get<Array<double>>(soup.find_point_data("t")->values) ==
+              Array<double>(grid.time.begin(), grid.time.end()));
+        CHECK(std::get<Array<std::int64_t>>(soup.find_point_data("vertex_id")->values) ==
+              Array<std::int64_t>(grid.ids.begin(), grid.ids.end()));
+        REQUIRE(soup.cell_data.size() == 2);
+        CHECK(soup.find_cell_data("pair")->components == 2);
+        CHECK(std::get<Array<std::int64_t>>(soup.find_cell_data("pair")->values) ==
+              Array<std::int64_t>(grid.pairs.begin(), grid.pairs.end()));
+        REQUIRE(soup.field_data.size() == 3);
+        CHECK(std::get<Array<double>>(soup.find_field_data("time")->values) == Array<double>{0.1, 1.0 / 3});
+        CHECK(std::get<std::vector<std::string>>(soup.find_field_data("patch_name")->values) ==
+              std::vector<std::string>{"walls & doors", "", "fan <1>"});
+    }
+}
+
+TEST_CASE("The bytes of a VTU file do not depend on the number of threads", "[io]") {
+    const scratch::Folder folder;
+    const specimens::Grid grid{3, 30};
+    for (const int threads : {1, 2, 5}) {
+        set_thread_count(threads);
+        io::write_vtu(folder / fmt::format("{}.vtu", threads), grid.columns());
+    }
+    set_thread_count(0);
+    CHECK(scratch::bytes_of(folder / "1.vtu") == scratch::bytes_of(folder / "2.vtu"));
+    CHECK(scratch::bytes_of(folder / "1.vtu") == scratch::bytes_of(folder / "5.vtu"));
+}
+
+TEST_CASE("A mesh file is known by its extension, in any case, or else by its content", "[io]") {
+    const scratch::Folder folder;
+    for (const char* name : {"a.VTU", "a.data"}) {
+        CHECK(io::read_mesh(scratch::put(folder / name, small_text)).points.size() == 4);
+    }
+    CHECK(io::read_mesh(scratch::put(folder / "b", scratch::bytes_of(fixture("size_t_4.msh"))))
+              .top_dimension() == 3);
+    CHECK_THAT(scratch::refusal(io::read_mesh, scratch::put(folder / "c", "junk")),
+               Catch::Contains("neither"));
+    CHECK_THAT(scratch::refusal(io::read_mesh, folder / "none"), Catch::Contains("No such file"));
+}

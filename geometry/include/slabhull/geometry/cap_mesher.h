@@ -27,9 +27,12 @@ struct CapMesh {
 /// Meshes the domain bounded by `surface`, whose facets all come back untouched, with nothing added on them.
 /// D = 3: TetGen in a child process, so that its crashes are ours to report. D = 2: a constrained Delaunay
 /// triangulation (CGAL) refined without ever splitting a boundary edge.
-/// Needs: a closed, outward oriented, embedded surface (see require_domain_boundary()) in which every point is used.
-/// Throws GeometryError when the mesher fails or its boundary differs from the surface; it names the facets.
-/// Deterministic.
+/// Needs: a closed, outward oriented, embedded surface (see require_domain_boundary()) in which every point
+/// is used. The spacing inside is that of a SizeField made from the boundary's own spacing and
+/// `options.grading`: the mean edge is about as long. Throws GeometryError when the mesher fails or its
+/// boundary differs from the surface; it names the facets. UsageError for a radius_edge outside [1, 100] or a
+/// min_dihedral outside [0, 20]. Cost (D = 3): about 5 microseconds per tetrahedron, and some 300 bytes of
+/// each in the child. Deterministic.
 template<int D>
 CapMesh<D> mesh_cap(const Surface<D>& surface, const CapOptions& options);
 
@@ -38,8 +41,11 @@ CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options);
 template<>
 CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options);
 
-/// Compares the boundary of a cap mesh with the surface it was asked for, facet by facet, orientation included,
-/// and that every cell is positively oriented. Throws GeometryError naming what is missing, added or inverted.
+/// Proves that a cap mesh fills the inside of a surface: its points begin with the surface's, bit for bit;
+/// its boundary facets are the surface's, orientation included; every cell is positively oriented (exactly)
+/// and opposite to its neighbours across the facets they share; every point is used. Together these leave no
+/// overlap and no gap when the surface bounds a domain. Throws GeometryError naming what is missing, added,
+/// inverted or unmatched. Cost: linear; about 2 % of the meshing.
 template<int D>
 void verify_cap(const CapMesh<D>& mesh, const Surface<D>& surface);
 

@@ -4,15 +4,17 @@
 #include "slabhull/core/point.h"
 
 #include <array>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 namespace slabhull {
 
-/// Normal N of a D-simplex in R^(D+1): det[e_1 .. e_D, N] > 0 and |N| is the simplex's measure.
+/// Normal N of a D-simplex in R^(D+1): det[e_1 .. e_D, N] > 0 and |N| is the simplex's measure (D = 2, 3).
 template<int D>
 Point<D + 1> simplex_normal(const std::array<Point<D + 1>, D + 1>& corners);
 
-/// Signed measure of a D-simplex in R^D: det[e_1 .. e_D] / D!.
+/// Signed measure of a D-simplex in R^D: det[e_1 .. e_D] / D! (D = 1, 2, 3).
 template<int D>
 double signed_measure(const std::array<Point<D>, D + 1>& corners);
 
@@ -21,6 +23,8 @@ struct AngleRange {
     double smallest;
     double largest;
 };
+/// For (D, N) = (2, 2), (2, 3), (3, 3), (3, 4). From the Gram matrix of the edges: good to about 1e-6 degrees near
+/// 0 and 180. A simplex with a facet of measure zero has no dihedral angle there: its range is 0 to 180.
 template<int D, int N>
 AngleRange dihedral_angles(const std::array<Point<N>, D + 1>& corners);
 
@@ -47,5 +51,36 @@ struct Measures {
 /// point, which changes nothing for a closed hull and loses fewer digits.
 template<int D>
 Measures<D> measure_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells);
+
+/// The same by groups: group[c] < group_count is that of cell c.
+template<int D>
+std::vector<Measures<D>> measure_groups(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+                                        std::span<const std::uint8_t> group, std::size_t group_count);
+
+/// Sums over D-simplices in R^D.
+struct SolidMeasures {
+    double measure = 0;        ///< sum of the signed measures
+    AngleRange angles{180, 0}; ///< over all simplices, in degrees
+};
+template<int D>
+SolidMeasures measure_solid(std::span<const Point<D>> points, std::span<const Simplex<D>> cells);
+
+extern template Point<3> simplex_normal<2>(const std::array<Point<3>, 3>&);
+extern template Point<4> simplex_normal<3>(const std::array<Point<4>, 4>&);
+extern template double signed_measure<1>(const std::array<Point<1>, 2>&);
+extern template double signed_measure<2>(const std::array<Point<2>, 3>&);
+extern template double signed_measure<3>(const std::array<Point<3>, 4>&);
+extern template AngleRange dihedral_angles<2, 2>(const std::array<Point<2>, 3>&);
+extern template AngleRange dihedral_angles<2, 3>(const std::array<Point<3>, 3>&);
+extern template AngleRange dihedral_angles<3, 3>(const std::array<Point<3>, 4>&);
+extern template AngleRange dihedral_angles<3, 4>(const std::array<Point<4>, 4>&);
+extern template Measures<2> measure_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
+extern template Measures<3> measure_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
+extern template std::vector<Measures<2>> measure_groups<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
+                                                           std::span<const std::uint8_t>, std::size_t);
+extern template std::vector<Measures<3>> measure_groups<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
+                                                           std::span<const std::uint8_t>, std::size_t);
+extern template SolidMeasures measure_solid<2>(std::span<const Point<2>>, std::span<const Simplex<2>>);
+extern template SolidMeasures measure_solid<3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
 
 } // namespace slabhull

@@ -18,29 +18,49 @@ struct Grading {
 };
 
 /// Wanted spacing h(x) inside a domain, from the spacing of its boundary:
-/// h(x) = min(largest, min over boundary vertices y of h_y + growth |x - y|),
-/// kept in a tree of boxes (quadtree, octree) each about as large as the spacing in it.
-/// Cost: building is near-linear in the number of boxes; a query is a descent of the tree.
+/// h(x) = min(largest, min over boundary points y of h_y + growth |x - y|).
+///
+/// A tree of boxes (quadtree, octree), each about as large as the spacing in it, names for each leaf the one
+/// boundary point that counts at its centre. So a value is never below h(x), at most `tolerance` times h(x)
+/// above it (in practice a few per cent), and equal to it where one boundary point rules a whole leaf.
+/// Outside the box of the boundary points, the leaf nearest to x answers. Cost: building is near-linear in
+/// the number of boxes; a query is a descent of the tree.
 template<int D>
 class SizeField {
 public:
-    /// `spacing` is that of each point, positive.
+    /// Largest relative excess over h(x) in the box of the boundary points.
+    static constexpr double tolerance = 0.5;
+
+    /// `spacing` is that of each point, positive. Without points h is `largest` everywhere.
     SizeField(std::span<const Point<D>> points, std::span<const double> spacing, const Grading& grading);
 
     double operator()(const Point<D>& x) const;
 
+    std::size_t box_count() const { return boxes_.size(); }
+
 private:
     static constexpr std::size_t fan = std::size_t{1} << D;
+    struct Source {
+        Point<D> at;
+        double spacing;
+    };
     struct Box {
         Index children = no_index; ///< the first of 2^D in a row, or no_index for a leaf
-        float size = 0;            ///< spacing at the centre of a leaf
+        Index source = no_index;   ///< what rules a leaf; no_index: `largest` does
     };
+    class Builder;
+
+    Index leaf_at(const Point<D>& x) const;
+
+    Grading grading_;
     Point<D> corner_{};
     double edge_ = 0;
-    std::vector<Box> boxes_;
+    Array<Source> sources_;
+    Array<Box> boxes_;
 };
 
-/// Spacing of each vertex of a boundary: the mean length of the facet edges at it.
+/// Spacing of each vertex of a boundary: the mean length of the facet edges at it; infinite for a vertex in
+/// no facet.
 template<int D>
 std::vector<double> boundary_spacing(std::span<const Point<D>> points, std::span<const Facet<D>> facets);
 

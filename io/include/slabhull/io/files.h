@@ -7,29 +7,41 @@
 
 namespace slabhull::io {
 
-// All readers throw InputError naming the file, the place (line or byte) and the entity at fault. Memory stays within
-// a small multiple of the file's size, whatever counts it claims.
-// All writers write beside the final name and rename when complete and synced; they throw OutputError, and then
-// whatever stood under the final name is untouched.
+// All readers throw InputError naming the file, the place (line or byte) and the entity at fault. Memory
+// stays within a small multiple of the file's size, whatever counts it claims. All writers write beside the
+// final name and rename when complete and synced; they throw OutputError, and then whatever stood under the
+// final name is untouched. Their memory does not grow with the mesh; the bytes do not depend on the number of
+// threads.
 
-/// MSH 2.2 and 4.1, ASCII and binary. Simplices of order 1; other element types are refused by name.
+/// MSH 2.2 and 4.1, ASCII and binary (little-endian). Points and straight lines, triangles and tetrahedra;
+/// other elements, and partitioned meshes, are refused by name. Groups: those with a name and those in use.
+/// An element of an entity in several groups gets the first; one that MSH 2.2 repeats for each of its groups
+/// stays repeated. Data: `$NodeData` that give each node a value and `$ElementData` that give one to each
+/// simplex of the top dimension become arrays of doubles; other sections are passed over.
 Soup read_msh(const std::filesystem::path& path);
-/// VTU with raw appended, inline ASCII or base64 data, uncompressed; triangles or tetrahedra.
+/// VTU of triangles only or tetrahedra only, in one piece, little-endian and uncompressed; arrays inline or
+/// appended, ASCII, base64 or raw. Integers become int64, reals double, text arrays strings.
 Soup read_vtu(const std::filesystem::path& path);
-/// MSH or VTU by extension.
+/// MSH or VTU by extension, or else by content.
 Soup read_mesh(const std::filesystem::path& path);
 
-/// A closed surface from STL, OFF, OBJ or PLY. Equal vertices of an STL, which has no other notion of
-/// connectivity, are welded; the others come as they are. Polygons are refused.
+/// A surface of triangles from STL, OFF, OBJ or PLY, by extension; faces as they come, however they meet.
+/// Polygons are refused. Vertices of an STL, which has no other notion of connectivity, are in single
+/// precision and welded where equal; facets that collapse by it are left out. The others keep double
+/// precision and their numbering.
 Soup read_surface(const std::filesystem::path& path);
-/// A closed curve: a line "x y" per point, in order; a last point equal to the first is dropped; lines that start with
-/// a letter (airfoil titles) or '#' are skipped. Lines of the soup have dimension 1.
+/// A closed curve: a line "x y" per point, in order; a last point equal to the first is dropped; lines that
+/// start with a letter (airfoil titles) or '#' are skipped. Lines of the soup have dimension 1.
 Soup read_curve(const std::filesystem::path& path);
 
-/// VTU, appended raw, UInt64 headers, little endian.
+/// VTU, appended raw, UInt64 headers, little-endian; connectivity in 32 bits where it fits. Text arrays are
+/// UInt8, each text ended by a zero byte (meshio opens no file with a string array of VTK's own kind);
+/// read_vtu() gives them back.
 void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh);
 /// MSH 4.1 binary: dense tags from 1, one block of nodes, one of elements per group, `$Entities` and
-/// `$PhysicalNames`; point data as `$NodeData`, cell data as `$ElementData` (components > 1 become name_0, name_1 ..).
+/// `$PhysicalNames`; point data as `$NodeData`, cell data as `$ElementData` (components > 1 become name_0,
+/// name_1 ..). Throws LimitError when data have more rows than the format's 32 bits count,
+/// std::invalid_argument when the groups do not hold all cells in order.
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
 /// A small text file, in the same all-or-nothing way.
 void write_text(const std::filesystem::path& path, const std::string& text);

@@ -23,22 +23,24 @@ struct DataArray {
 
 /// The simplices of one dimension in a file.
 struct SimplexBlock {
-    Array<Index> vertices;            ///< dimension + 1 per simplex, from 0
+    Array<Index> vertices;             ///< dimension + 1 per simplex, from 0
     std::vector<PatchNumber> physical; ///< group of each simplex, 0 for none; empty: all 0
     std::vector<std::int32_t> entity;  ///< geometric entity of each simplex; empty: all 0
     Array<std::int64_t> tags;          ///< the file's own numbers; empty: counted from 0
 
-    std::size_t size(int dimension) const { return vertices.size() / static_cast<std::size_t>(dimension + 1); }
+    std::size_t size(int dimension) const {
+        return vertices.size() / static_cast<std::size_t>(dimension + 1);
+    }
     std::int64_t tag(std::size_t i) const { return tags.empty() ? static_cast<std::int64_t>(i) : tags[i]; }
 };
 
 /// What a mesh file says: points and simplices, nothing derived, nothing mended.
 struct Soup {
     std::string path;
-    Array<Point<3>> points;          ///< always three coordinates
-    Array<std::int64_t> point_tags;  ///< the file's own numbers; empty: counted from 0
+    Array<Point<3>> points;                ///< always three coordinates
+    Array<std::int64_t> point_tags;        ///< the file's own numbers; empty: counted from 0
     std::array<SimplexBlock, 4> simplices; ///< by dimension: vertices, lines, triangles, tetrahedra
-    std::array<PatchList, 4> groups;       ///< named physical groups by dimension
+    std::array<PatchList, 4> groups;       ///< physical groups by dimension; a name may be empty
     std::vector<DataArray> point_data;
     std::vector<DataArray> cell_data; ///< rows go with the simplices of top_dimension()
     std::vector<DataArray> field_data;
@@ -71,7 +73,8 @@ struct MeshColumns {
     std::vector<DataColumn> cell_data;
     std::vector<DataArray> field_data;
 
-    /// Blocks of consecutive cells for formats with physical groups: each is one group. Empty: one without a name.
+    /// Blocks of consecutive cells for formats with physical groups: each is one group. Empty: one without a
+    /// name.
     struct Group {
         std::size_t begin = 0;
         std::size_t end = 0;

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/point.h"
+#include "slabhull/geometry/affine.h"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace slabhull {
+
+/// How the points of a boundary patch move: a velocity field dx/dt = v(x, t).
+/// Immutable; all members may be called from several threads at once.
+template<int D>
+class Motion {
+public:
+    virtual ~Motion() = default;
+
+    /// v[i] = velocity at x[i] at time t; the spans are equally long and do not overlap.
+    /// Throws GeometryError where the field has no finite value.
+    virtual void velocity(std::span<const Point<D>> x, double t, std::span<Point<D>> v) const = 0;
+
+    /// The path in closed form: takes the position at time `from` to that at time `to`. Empty where none is
+    /// known.
+    virtual std::optional<AffineMap<D>> map(double from, double to) const = 0;
+
+    /// False only for a motion that leaves every point in its place.
+    virtual bool moves() const { return true; }
+};
+
+template<int D>
+using MotionPointer = std::shared_ptr<const Motion<D>>;
+
+// All factories throw UsageError when an argument is not finite.
+
+/// Every point keeps its place.
+template<int D>
+MotionPointer<D> standing();
+
+/// Turns about the axis through `centre`, right-handed (D = 2: counter-clockwise, `axis` is ignored), by
+/// `rate` radians per unit of time. The axis need not be of unit length; throws UsageError when it is zero.
+template<int D>
+MotionPointer<D> rotation(const Point<D>& axis, const Point<D>& centre, double rate);
+
+/// Moves every point by `velocity` per unit of time.
+template<int D>
+MotionPointer<D> translation(const Point<D>& velocity);
+
+/// A point x0 at time `start` is at centre + (1 + rate (t - start)) (x0 - centre) at time t.
+/// velocity() and map() throw GeometryError at times when the factor is not positive: all points have met
+/// there.
+template<int D>
+MotionPointer<D> expansion(const Point<D>& centre, double rate, double start);
+
+/// One formula per component of the velocity, in x, y, (z,) t, `pi` and the named constants, in the language
+/// of muParser (https://beltoforion.de/en/muparser/features.php). Compiled once per thread that evaluates.
+/// Throws UsageError, quoting the formula, for anything that is not one plain expression; velocity() throws
+/// GeometryError naming formula, point and time when a value is not finite.
+template<int D>
+MotionPointer<D> formula_velocity(const std::array<std::string, D>& formulas,
+                                  const std::map<std::string, double>& constants = {});
+
+extern template MotionPointer<2> standing<2>();
+extern template MotionPointer<3> standing<3>();
+extern template MotionPointer<2> rotation<2>(const Point<2>&, const Point<2>&, double);
+extern template MotionPointer<3> rotation<3>(const Point<3>&, const Point<3>&, double);
+extern template MotionPointer<2> translation<2>(const Point<2>&);
+extern template MotionPointer<3> translation<3>(const Point<3>&);
+extern template MotionPointer<2> expansion<2>(const Point<2>&, double, double);
+extern template MotionPointer<3> expansion<3>(const Point<3>&, double, double);
+extern template MotionPointer<2> formula_velocity<2>(const std::array<std::string, 2>&,
+                                                     const std::map<std::string, double>&);
+extern template MotionPointer<3> formula_velocity<3>(const std::array<std::string, 3>&,
+                                                     const std::map<std::string, double>&);
+
+} // namespace slabhull

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "column_stream.h"
+
+#include "slabhull/core/array.h"
+#include "slabhull/core/parallel.h"
+
+namespace slabhull::io {
+
+void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill) {
+    constexpr std::size_t block_bytes = std::size_t{8} << 20;
+    constexpr std::size_t pieces = 8;
+    const std::size_t block_rows = std::max(pieces, block_bytes / row_bytes);
+    Array<char> block(std::min(rows, block_rows) * row_bytes);
+    for (std::size_t first = 0; first < rows; first += block_rows) {
+        const std::size_t count = std::min(rows - first, block_rows);
+        parallel_for(count, block_rows / pieces, [&](std::size_t begin, std::size_t end) {
+            fill(first + begin, first + end, block.data() + begin * row_bytes);
+        });
+        file.write(block.data(), count * row_bytes);
+    }
+}
+
+std::size_t rows_of(const DataColumn& data) {
+    return std::visit([](const auto& column) { return column.rows(); }, data.values);
+}
+
+int components_of(const DataColumn& data) {
+    return std::visit([](const auto& column) { return column.components(); }, data.values);
+}
+
+} // namespace slabhull::io

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/column.h"
+#include "slabhull/io/atomic_file.h"
+#include "slabhull/io/soup.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <vector>
+
+namespace slabhull::io {
+
+/// Writes the bytes of rows [begin, end) to `out`; called from several threads.
+using RowFill = std::function<void(std::size_t begin, std::size_t end, char* out)>;
+
+/// Writes rows to the file, large blocks at a time; within a block they are made by several threads.
+void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill);
+
+/// Calls use(row, values) for rows [begin, end) of a column.
+template<class T, class Use>
+void for_each_row(const Column<T>& column, std::size_t begin, std::size_t end, const Use& use) {
+    constexpr std::size_t chunk = 1024; // small enough to stay in the cache
+    const auto width = static_cast<std::size_t>(column.components());
+    std::vector<T> values(std::min(chunk, end - begin) * width);
+    for (std::size_t first = begin; first < end; first += chunk) {
+        const std::size_t last = std::min(end, first + chunk);
+        column.fill(first, last, values.data());
+        for (std::size_t row = first; row < last; ++row) {
+            use(row, values.data() + (row - first) * width);
+        }
+    }
+}
+
+/// Copies the value to `out` and steps past it.
+template<class T>
+void put(char*& out, T value) {
+    std::memcpy(out, &value, sizeof value);
+    out += sizeof value;
+}
+
+/// Fill that stores a column's values as Stored.
+template<class Stored, class Given>
+RowFill stored_as(const Column<Given>& column) {
+    return [column](std::size_t begin, std::size_t end, char* out) {
+        for_each_row(column, begin, end, [&](std::size_t, const Given* values) {
+            for (int k = 0; k < column.components(); ++k) {
+                put(out, static_cast<Stored>(values[k]));
+            }
+        });
+    };
+}
+
+std::size_t rows_of(const DataColumn& data);
+int components_of(const DataColumn& data);
+
+} // namespace slabhull::io

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace slabhull::io {
+
+/// A file that appears under its name complete or not at all: bytes go to a temporary file beside it, which
+/// commit() syncs to disk and renames. Without commit() the temporary file is removed and whatever stood
+/// under the name stays. A symbolic link is followed, permissions are those of a new file. All failures are
+/// OutputErrors naming the path.
+class AtomicFile {
+public:
+    explicit AtomicFile(const std::filesystem::path& path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    void write(const void* bytes, std::size_t size);
+    void write(std::string_view text) { write(text.data(), text.size()); }
+    /// Nothing may be written after it.
+    void commit();
+
+private:
+    [[noreturn]] void fail(const char* doing) const;
+
+    std::filesystem::path path_;      ///< as the caller names it
+    std::filesystem::path target_;    ///< where it points
+    std::filesystem::path temporary_; ///< empty once committed
+    int descriptor_ = -1;
+};
+
+} // namespace slabhull::io

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/case.h"
+
+#include "slabhull/core/error.h"
+
+#include "key_table.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace slabhull {
+
+namespace {
+
+/// Turns the tables of a case file into a Case. Each method reads one table.
+class CaseReader {
+public:
+    CaseReader(KeyTable root, std::filesystem::path directory)
+        : root_{std::move(root)}, directory_{std::move(directory)} {}
+
+    Case run() {
+        read_general();
+        read_time();
+        read_patches();
+        read_trajectory();
+        read_side();
+        read_cap();
+        read_output();
+        root_.require_all_known();
+        return std::move(case_);
+    }
+
+private:
+    void read_general() {
+        KeyTable initial = root_.table("initial");
+        if (const auto name = initial.optional_text("experiment")) {
+            read_experiment(initial, *name);
+        } else {
+            case_.dimension = root_.integer("dimension", 2, 3);
+            case_.split = case_.dimension == 3 ? Split::C : Split::centre;
+            read_initial(initial);
+        }
+        case_.title = root_.optional_text("title").value_or(case_.title);
+        initial.require_all_known();
+    }
+
+    void read_experiment(KeyTable& initial, const std::string& name) {
+        for (const char* other : {"mesh", "surfaces", "curves", "box", "outer"}) {
+            if (initial.has(other)) {
+                initial.fail(other, "nothing beside \"experiment\"");
+            }
+        }
+        const int level = initial.has("level") ? initial.integer("level", 1, 99) : 1;
+        case_ = experiment_case(name, level);
+        if (root_.has("dimension")) {
+            root_.integer("dimension", case_.dimension, case_.dimension);
+        }
+    }
+
+    void read_initial(KeyTable& initial) {
+        const char* bodies = case_.dimension == 3 ? "surfaces" : "curves";
+        if (initial.has("mesh")) {
+            if (initial.has(bodies)) {
+                initial.fail(bodies, "exactly one of \"mesh\", \"surfaces\" or \"curves\", and \"experiment\"");
+            }
+            case_.initial = InitialMesh{directory_ / initial.text("mesh")};
+            return;
+        }
+        InitialBodies parts;
+        for (KeyTable& body : initial.optional_tables(bodies)) {
+            parts.files.push_back(read_body(body, nullptr));
+        }
+        if (initial.has("box") == initial.has("outer")) {
+            initial.fail("box", fmt::format("\"mesh\", \"experiment\", or {} with exactly one of \"box\" and \"outer\"",
+                                            bodies));
+        }
+        if (initial.has("box")) {
+            parts.outer = read_box(initial.table("box"));
+        } else {
+            KeyTable outer = initial.table("outer");
+            parts.outer = read_body(outer, "walls");
+        }
+        case_.initial = std::move(parts);
+    }
+
+    BodyFile read_body(KeyTable& table, const char* default_patch) {
+        BodyFile body{directory_ / table.text("file"), {}};
+        body.patch = default_patch != nullptr ? table.optional_text("patch").value_or(default_patch)
+                                              : table.text("patch");
+        table.require_all_known();
+        return body;
+    }
+
+    BoxSpec read_box(KeyTable table) {
+        BoxSpec box;
+        box.min = table.numbers("min", case_.dimension);
+        box.max = table.numbers("max", case_.dimension);
+        box.size = table.positive("size");
+        box.patch = table.optional_text("patch").value_or(box.patch);
+        for (std::size_t k = 0; k < box.min.size(); ++k) {
+            if (!(box.min[k] < box.max[k])) {
+                table.fail("max", "each entry above that of \"min\"");
+            }
+        }
+        table.require_all_known();
+        return box;
+    }
+
+    void read_time() {
+        KeyTable time = root_.optional_table("time");
+        case_.start = time.number_or("start", case_.start);
+        case_.end = time.number_or("end", case_.end);
+        if (!(case_.start < case_.end)) {
+            time.fail("end", "a time after \"start\"");
+        }
+        if (time.has("slabs")) {
+            case_.slabs = time.integer("slabs", 1, 100'000'000);
+        }
+        if (time.has("layers") && time.has("spacing")) {
+            time.fail("spacing", "one of \"layers\" and \"spacing\"");
+        }
+        if (time.has("layers")) {
+            case_.layers = time.integer("layers", 1, 1'000'000);
+            case_.spacing.reset();
+        } else if (time.has("spacing")) {
+            case_.spacing = time.positive("spacing");
+            case_.layers.reset();
+        }
+        time.require_all_known();
+    }
+
+    void read_patches() {
+        KeyTable motions = root_.optional_table("motion");
+        for (const std::string& patch : motions.keys()) {
+            case_.motions[patch] = read_motion(motions.table(patch));
+        }
+        KeyTable projections = root_.optional_table("project");
+        for (const std::string& patch : projections.keys()) {
+            case_.projections[patch] = read_projection(projections.table(patch));
+        }
+    }
+
+    MotionSpec read_motion(KeyTable table) {
+        using Kind = MotionSpec::Kind;
+        MotionSpec motion;
+        motion.kind = table.choice<Kind>("kind", {{"rotation", Kind::rotation},
+                                                  {"translation", Kind::translation},
+                                                  {"expansion", Kind::expansion},
+                                                  {"velocity", Kind::velocity}});
+        switch (motion.kind) {
+        case Kind::rotation:
+            if (case_.dimension == 3) {
+                motion.axis = table.direction("axis", 3);
+            }
+            motion.centre = table.numbers("centre", case_.dimension);
+            motion.rate = table.number("rate");
+            break;
+        case Kind::translation:
+            motion.velocity = table.numbers("velocity", case_.dimension);
+            break;
+        case Kind::expansion:
+            motion.centre = table.numbers("centre", case_.dimension);
+            motion.rate = table.number("rate");
+            if (1 + motion.rate * (case_.end - case_.start) <= 0) {
+                table.fail("rate", "a rate that keeps 1 + rate (end - start) positive");
+            }
+            break;
+        case Kind::velocity:
+            motion.formula = table.texts("formula", case_.dimension);
+            motion.constants = table.optional_constants("constants");
+            break;
+        }
+        table.require_all_known();
+        return motion;
+    }
+
+    ProjectionSpec read_projection(KeyTable table) {
+        using Kind = ProjectionSpec::Kind;
+        const bool solid = case_.dimension == 3;
+        ProjectionSpec spec;
+        const std::string ball = solid ? "sphere" : "circle";
+        const std::string egg = solid ? "ellipsoid" : "ellipse";
+        std::map<std::string, Kind> kinds{{ball, Kind::sphere}, {egg, Kind::ellipsoid}, {"plane", Kind::plane}};
+        if (solid) {
+            kinds["cylinder"] = Kind::cylinder;
+        }
+        spec.kind = table.choice<Kind>("surface", kinds);
+        spec.centre = table.numbers(spec.kind == Kind::plane ? "point" : "centre", case_.dimension);
+        switch (spec.kind) {
+        case Kind::sphere:
+            spec.semi_axes.assign(static_cast<std::size_t>(case_.dimension), table.positive("radius"));
+            break;
+        case Kind::ellipsoid:
+            spec.semi_axes = table.positives("semi_axes", case_.dimension);
+            break;
+        case Kind::cylinder:
+            spec.direction = table.direction("axis", 3);
+            spec.radius = table.positive("radius");
+            break;
+        case Kind::plane:
+            spec.direction = table.direction("normal", case_.dimension);
+            break;
+        }
+        table.require_all_known();
+        return spec;
+    }
+
+    void read_trajectory() {
+        KeyTable table = root_.optional_table("trajectory");
+        if (table.has("scheme")) {
+            case_.trajectory.scheme = table.choice<Scheme>("scheme", {{"euler", Scheme::euler},
+                                                                      {"heun", Scheme::heun},
+                                                                      {"rk4", Scheme::rk4},
+                                                                      {"dopri5", Scheme::dopri5},
+                                                                      {"exact", Scheme::exact}});
+        }
+        if (table.has("substeps")) {
+            case_.trajectory.substeps = table.integer("substeps", 1, 1'000'000);
+        }
+        if (table.has("tolerance")) {
+            case_.trajectory.tolerance = table.positive("tolerance");
+        }
+        table.require_all_known();
+    }
+
+    void read_side() {
+        KeyTable table = root_.optional_table("side");
+        if (const auto name = table.optional_text("split")) {
+            try {
+                case_.split = split_from_name(*name, case_.dimension);
+            } catch (const UsageError& error) {
+                table.fail("split", error.what());
+            }
+        }
+        table.require_all_known();
+    }
+
+    void read_cap() {
+        KeyTable table = root_.optional_table("cap");
+        if (table.has("mesher")) {
+            table.choice<int>("mesher", {{case_.dimension == 3 ? "tetgen" : "cdt", 0}});
+        }
+        if (table.has("size")) {
+            case_.cap_size = table.positive("size");
+        }
+        if (table.has("growth")) {
+            case_.cap_growth = table.positive("growth");
+        }
+        if (table.has("quality")) {
+            case_.cap_quality = table.number("quality");
+            if (!(case_.cap_quality >= 1)) {
+                table.fail("quality", "a radius-edge bound of at least 1");
+            }
+        }
+        table.require_all_known();
+    }
+
+    void read_output() {
+        KeyTable table = root_.optional_table("output");
+        const auto directory = table.optional_text("directory");
+        case_.directory = directory_ / directory.value_or(case_.directory.string());
+        if (table.has("formats")) {
+            case_.formats = table.texts("formats", -1);
+            for (const std::string& format : case_.formats) {
+                if (format != "vtu" && format != "msh") {
+                    table.fail("formats", fmt::format("\"vtu\" and \"msh\", not \"{}\"", format));
+                }
+            }
+        }
+        table.require_all_known();
+    }
+
+    KeyTable root_;
+    std::filesystem::path directory_;
+    Case case_;
+};
+
+} // namespace
+
+Case read_case(const std::filesystem::path& path) {
+    return CaseReader{KeyTable::parse_file(path), path.parent_path()}.run();
+}
+
+int Case::layers_in(double duration) const {
+    if (spacing) {
+        return std::max(1, static_cast<int>(std::ceil(duration / *spacing - 1e-9)));
+    }
+    return layers.value_or(1);
+}
+
+} // namespace slabhull

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hull_view.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace slabhull {
+
+namespace {
+
+constexpr std::array<const char*, 3> region_names{"initial cap", "side", "terminating cap"};
+
+template<int D>
+std::array<double, 2> time_range(std::span<const Point<D + 1>> points) {
+    std::array<double, 2> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const Point<D + 1>& point : points) {
+        range[0] = std::min(range[0], point[D]);
+        range[1] = std::max(range[1], point[D]);
+    }
+    return range;
+}
+
+template<int D>
+bool any_cell_at(const HullView<D>& view, double time) {
+    return std::any_of(view.cells().begin(), view.cells().end(), [&](const Simplex<D>& cell) {
+        return std::all_of(cell.begin(), cell.end(), [&](Index v) { return view.time_of(v) == time; });
+    });
+}
+
+/// The slab's times: those claimed when caps are there, else the first and last of the vertices.
+template<int D>
+std::array<double, 2> slab_times(const HullView<D>& view, Findings& findings) {
+    const std::array<double, 2> seen = time_range<D>(view.points());
+    if (!view.hull.time || *view.hull.time == seen) {
+        return seen;
+    }
+    const std::array<double, 2> claimed = *view.hull.time;
+    if (!any_cell_at(view, claimed[0]) || !any_cell_at(view, claimed[1])) {
+        findings.other(Defect::wrong_slab_time, {},
+                       fmt::format("the slab is said to last from {} to {}, its vertices from {} to {}", claimed[0],
+                                   claimed[1], seen[0], seen[1]));
+        return seen;
+    }
+    for (const Index v : select(view.points().size(), [&](std::size_t k) {
+             const double t = view.points()[k][D];
+             return t < claimed[0] || t > claimed[1];
+         })) {
+        findings.vertex(Defect::time_outside_slab, v,
+                        fmt::format("t = {} is outside the slab's [{}, {}]", view.time_of(v), claimed[0], claimed[1]));
+    }
+    return claimed;
+}
+
+template<int D>
+void find_regions(HullView<D>& view) {
+    view.region.resize(view.cells().size());
+    parallel_for(view.cells().size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            const auto [first, last] = view.span_of(c);
+            const Region region = last == view.time[0]    ? Region::initial
+                                  : first == view.time[1] ? Region::terminating
+                                                          : Region::intermediate;
+            view.region[c] = static_cast<std::uint8_t>(region);
+        }
+    });
+}
+
+template<int D>
+void compare_regions(const HullView<D>& view, Findings& findings) {
+    each_row(view.hull.region, [&](std::size_t c, const std::int64_t* claimed) {
+        if (*claimed == view.region[c]) {
+            return;
+        }
+        const bool cap_claimed = *claimed == 0 || *claimed == 2;
+        if (cap_claimed && !view.in_cap(c)) {
+            const auto [first, last] = view.span_of(c);
+            findings.cell(Defect::cap_not_flat, static_cast<Index>(c),
+                          fmt::format("said to be in the {}, which is at t = {}, but its vertices have t = {} to {}",
+                                      region_names[static_cast<std::size_t>(*claimed)],
+                                      view.time[*claimed == 0 ? 0 : 1], first, last));
+        } else {
+            findings.cell(Defect::wrong_region, static_cast<Index>(c),
+                          fmt::format("said to be in region {}, but its vertices' times put it in the {}", *claimed,
+                                      region_names[view.region[c]]));
+        }
+    });
+}
+
+template<int D>
+void check_side_spans(const HullView<D>& view, Findings& findings) {
+    const auto flat = select(view.cells().size(), [&](std::size_t c) {
+        const auto [first, last] = view.span_of(c);
+        return first == last && !view.in_cap(c);
+    });
+    for (const Index c : flat) {
+        findings.cell(Defect::flat_side_cell, c,
+                      fmt::format("a side cell with all its vertices at t = {}", view.span_of(c)[0]));
+    }
+}
+
+/// V - E + F of a surface mesh with boundary: its E is (3 F + boundary edges) / 2.
+std::int64_t euler_of_cap(const HullView<2>& view, Region cap) {
+    std::vector<bool> used(view.points().size(), false);
+    std::int64_t triangles = 0;
+    std::int64_t boundary = 0;
+    for (std::size_t c = 0; c < view.cells().size(); ++c) {
+        if (view.region_of(c) != cap) {
+            continue;
+        }
+        ++triangles;
+        for (std::size_t i = 0; i <= 2; ++i) {
+            used[view.cells()[c][i]] = true;
+            boundary += view.region_of(view.adjacency.neighbors[c][i]) != cap;
+        }
+    }
+    return std::count(used.begin(), used.end(), true) - (3 * triangles + boundary) / 2 + triangles;
+}
+
+} // namespace
+
+template<int D>
+bool check_regions(HullView<D>& view, Findings& findings) {
+    view.time = slab_times(view, findings);
+    if (!(view.time[0] < view.time[1])) {
+        findings.other(Defect::no_duration, {}, fmt::format("all vertices are at t = {}", view.time[0]));
+        return false;
+    }
+    find_regions(view);
+    for (const Region cap : {Region::initial, Region::terminating}) {
+        const auto code = static_cast<std::uint8_t>(cap);
+        if (std::find(view.region.begin(), view.region.end(), code) == view.region.end()) {
+            findings.other(Defect::missing_cap, {},
+                           fmt::format("no {}: no cell has all its vertices at t = {}", region_names[code],
+                                       view.time[cap == Region::initial ? 0 : 1]));
+        }
+    }
+    if (findings.count(Defect::missing_cap) > 0) {
+        return false;
+    }
+    if (view.hull.region.given()) {
+        compare_regions(view, findings);
+    }
+    check_side_spans(view, findings);
+    return true;
+}
+
+template<int D>
+void check_cap_cells(const HullView<D>& view, double sign, Findings& findings) {
+    const auto along_time = [&](std::size_t c) {
+        const double outward = view.region_of(c) == Region::initial ? -sign : sign;
+        return outward * simplex_normal<D>(corners_of<D, D + 1>(view.cells()[c], view.points()))[D];
+    };
+    const auto bad =
+        select(view.cells().size(), [&](std::size_t c) { return view.in_cap(c) && along_time(c) < 0; });
+    for (const Index c : bad) {
+        findings.cell(Defect::inverted_cell, c,
+                      fmt::format("its normal does not point out of the {}", region_names[view.region[c]]));
+    }
+}
+
+template<int D>
+void check_euler(const HullView<D>& view, const ManifoldCounts& counts, Findings& findings) {
+    // D = 3: a closed 3-manifold has 0, and that of a cap is half that of its boundary, which is compared anyway.
+    if constexpr (D == 2) {
+        const std::int64_t initial = euler_of_cap(view, Region::initial);
+        const std::int64_t terminating = euler_of_cap(view, Region::terminating);
+        if (initial != terminating || counts.euler != 2 * terminating) {
+            findings.other(Defect::euler_mismatch, {},
+                           fmt::format("Euler characteristic {} of the initial cap, {} of the terminating cap, {} of "
+                                       "the hull, which should be twice a cap's",
+                                       initial, terminating, counts.euler));
+        }
+    }
+}
+
+template bool check_regions<2>(HullView<2>&, Findings&);
+template bool check_regions<3>(HullView<3>&, Findings&);
+template void check_cap_cells<2>(const HullView<2>&, double, Findings&);
+template void check_cap_cells<3>(const HullView<3>&, double, Findings&);
+template void check_euler<2>(const HullView<2>&, const ManifoldCounts&, Findings&);
+template void check_euler<3>(const HullView<3>&, const ManifoldCounts&, Findings&);
+
+} // namespace slabhull

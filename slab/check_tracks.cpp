@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hull_view.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+#include <fmt/format.h>
+
+#include <tuple>
+
+namespace slabhull {
+
+namespace {
+
+struct TrackPoint {
+    TrackId track;
+    double time;
+    Index vertex;
+    friend auto operator<=>(const TrackPoint&, const TrackPoint&) = default;
+};
+
+template<int D>
+std::vector<TrackPoint> sorted_track_points(const HullView<D>& view) {
+    std::vector<TrackPoint> on_tracks;
+    for (std::size_t v = 0; v < view.track.size(); ++v) {
+        if (view.track[v] >= 0) {
+            const auto vertex = static_cast<Index>(v);
+            on_tracks.push_back({view.track[v], view.time_of(vertex), vertex});
+        }
+    }
+    std::sort(on_tracks.begin(), on_tracks.end(), [](const TrackPoint& a, const TrackPoint& b) {
+        return std::tie(a.track, a.time, a.vertex) < std::tie(b.track, b.time, b.vertex);
+    });
+    return on_tracks;
+}
+
+std::vector<Entity> track_entities(TrackId track, std::span<const Index> vertices, const Findings& findings) {
+    std::vector<Entity> entities{{"track", track, {}}};
+    for (Entity& vertex : findings.vertex_entities(vertices)) {
+        entities.push_back(std::move(vertex));
+    }
+    return entities;
+}
+
+/// `track` is the points of one, by time.
+void check_track(std::span<const TrackPoint> track, const std::array<double, 2>& slab, Findings& findings) {
+    for (std::size_t k = 1; k < track.size(); ++k) {
+        if (track[k].time == track[k - 1].time) {
+            const std::array<Index, 2> both{track[k - 1].vertex, track[k].vertex};
+            findings.other(Defect::track_repeats_time, track_entities(track[k].track, both, findings),
+                           fmt::format("track {}: two vertices at t = {}", track[k].track, track[k].time));
+        }
+    }
+    if (track.front().time != slab[0] || track.back().time != slab[1]) {
+        const std::array<Index, 2> ends{track.front().vertex, track.back().vertex};
+        findings.other(Defect::track_incomplete, track_entities(track.front().track, ends, findings),
+                       fmt::format("track {}: leads from t = {} to {}, not from {} to {}", track.front().track,
+                                   track.front().time, track.back().time, slab[0], slab[1]));
+    }
+}
+
+/// How cap vertices are used.
+enum : std::uint8_t { in_a_cap = 1, on_its_boundary = 2 };
+
+template<int D>
+BoundaryFacet<D> boundary_facet(const HullView<D>& view, Index cell, std::size_t i) {
+    BoundaryFacet<D> facet{{}, false, outward_facet<D>(view.cells()[cell], static_cast<int>(i)), cell,
+                           view.adjacency.neighbors[cell][i]};
+    if (view.region_of(cell) == Region::initial) {
+        std::swap(facet.vertices[0], facet.vertices[1]); // an initial cell is negative in space
+    }
+    for (std::size_t k = 0; k < D; ++k) {
+        facet.tracks[k] = view.track[facet.vertices[k]];
+        for (std::size_t j = 0; j < k; ++j) {
+            facet.odd ^= facet.tracks[j] > facet.tracks[k];
+        }
+    }
+    std::sort(facet.tracks.begin(), facet.tracks.end());
+    return facet;
+}
+
+template<int D>
+bool before(const BoundaryFacet<D>& a, const BoundaryFacet<D>& b) {
+    return std::tie(a.tracks, a.vertices) < std::tie(b.tracks, b.vertices);
+}
+
+template<int D>
+void report(Defect what, const BoundaryFacet<D>& facet, const char* detail, Findings& findings) {
+    findings.vertices(what, facet.vertices, {&facet.cap_cell, 1}, detail);
+}
+
+template<int D>
+void check_cap_vertices(const HullView<D>& view, const std::vector<std::uint8_t>& use, Findings& findings) {
+    for (std::size_t v = 0; v < use.size(); ++v) {
+        const auto vertex = static_cast<Index>(v);
+        if ((use[v] & on_its_boundary) != 0 && view.track[v] < 0) {
+            findings.vertex(Defect::untracked_boundary, vertex, "a cap meets the side there, but it has no track");
+        } else if (use[v] == in_a_cap && view.track[v] >= 0) {
+            findings.vertex(Defect::stray_track, vertex,
+                            fmt::format("inside a cap, but on track {}", view.track[v]));
+        }
+    }
+}
+
+} // namespace
+
+template<int D>
+void check_tracks(const HullView<D>& view, Findings& findings) {
+    const std::vector<TrackPoint> points = sorted_track_points(view);
+    for (auto run = points.begin(); run != points.end();) {
+        const auto end = std::find_if(run, points.end(), [&](const TrackPoint& p) { return p.track != run->track; });
+        check_track({run, end}, view.time, findings);
+        run = end;
+    }
+}
+
+template<int D>
+BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findings) {
+    BoundaryFacets<D> boundary;
+    std::vector<std::uint8_t> use(view.points().size(), 0);
+    for (Index c = 0; c < view.cells().size(); ++c) {
+        if (!view.in_cap(c)) {
+            continue;
+        }
+        for (std::size_t i = 0; i <= D; ++i) {
+            use[view.cells()[c][i]] |= in_a_cap;
+            if (view.in_cap(view.adjacency.neighbors[c][i])) {
+                continue;
+            }
+            const BoundaryFacet<D> facet = boundary_facet(view, c, i);
+            for (const Index v : facet.vertices) {
+                use[v] |= on_its_boundary;
+            }
+            boundary[view.region_of(c) == Region::initial ? 0 : 1].push_back(facet);
+        }
+    }
+    for (auto& facets : boundary) {
+        std::sort(facets.begin(), facets.end(), before<D>);
+    }
+    check_cap_vertices(view, use, findings);
+    return boundary;
+}
+
+template<int D>
+void check_boundary_image(const BoundaryFacets<D>& boundary, Findings& findings) {
+    auto first = boundary[0].begin();
+    auto image = boundary[1].begin();
+    while (first != boundary[0].end() || image != boundary[1].end()) {
+        if (image == boundary[1].end() || (first != boundary[0].end() && first->tracks < image->tracks)) {
+            report(Defect::boundary_facet_lost, *first++, "the terminating cap has no facet on its tracks", findings);
+        } else if (first == boundary[0].end() || image->tracks < first->tracks) {
+            report(Defect::boundary_facet_added, *image++, "the initial cap has no facet on its tracks", findings);
+        } else {
+            if (first->odd != image->odd) {
+                report(Defect::boundary_facet_reversed, *image, "lies the other way round than in the initial cap",
+                       findings);
+            }
+            ++first;
+            ++image;
+        }
+    }
+}
+
+template void check_tracks<2>(const HullView<2>&, Findings&);
+template void check_tracks<3>(const HullView<3>&, Findings&);
+template BoundaryFacets<2> check_cap_boundaries<2>(const HullView<2>&, Findings&);
+template BoundaryFacets<3> check_cap_boundaries<3>(const HullView<3>&, Findings&);
+template void check_boundary_image<2>(const BoundaryFacets<2>&, Findings&);
+template void check_boundary_image<3>(const BoundaryFacets<3>&, Findings&);
+
+} // namespace slabhull

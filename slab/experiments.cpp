@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The six experiments of Anderson, Williams and Corrigan. One number per level, the refinement, sets the three spacings
+// (body, box, time) in fixed proportion; it was found by search so that the hull has the paper's number of simplices.
+#include "slabhull/slab/case.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/geometry/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <span>
+
+namespace slabhull {
+
+namespace {
+
+struct Experiment {
+    const char* name;
+    const char* title;
+    int dimension;
+    std::span<const double> refinement; ///< by level
+};
+
+constexpr std::array circle_levels{1.0, 1.4, 2.0, 2.8, 4.0};
+constexpr std::array expanding_circle_levels{1.0, 1.4, 2.0, 2.8, 4.0};
+constexpr std::array sphere_levels{1.0, 1.4, 2.0};
+constexpr std::array expanding_sphere_levels{1.0, 1.4, 2.0};
+constexpr std::array ellipsoid_levels{1.0, 1.4, 2.0};
+constexpr std::array tandem_levels{1.0, 1.4, 2.0};
+
+constexpr std::array<Experiment, 6> experiments{{
+    {"circle", "Circle in a square, at rest", 2, circle_levels},
+    {"expanding-circle", "Expanding circle in a square", 2, expanding_circle_levels},
+    {"sphere", "Sphere in a cube, at rest", 3, sphere_levels},
+    {"expanding-sphere", "Expanding sphere in a cube", 3, expanding_sphere_levels},
+    {"ellipsoid", "Ellipsoid turning in a cube", 3, ellipsoid_levels},
+    {"tandem-ellipsoids", "Two ellipsoids turning against each other in a cube", 3, tandem_levels},
+}};
+
+const Experiment& find_experiment(const std::string& name, int level) {
+    std::string known;
+    for (const Experiment& experiment : experiments) {
+        if (experiment.name == name) {
+            const auto levels = static_cast<int>(experiment.refinement.size());
+            if (level < 1 || level > levels) {
+                throw UsageError(fmt::format("experiment \"{}\" has levels 1 to {}, not {}", name, levels, level));
+            }
+            return experiment;
+        }
+        known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", experiment.name);
+    }
+    throw UsageError(fmt::format("no experiment \"{}\"; there are {}", name, known));
+}
+
+/// Spacings at refinement 1; each is divided by the refinement.
+struct Spacings {
+    double body;
+    double box;
+    double time;
+};
+
+constexpr double quarter_turn = std::numbers::pi / 2;
+
+/// Puts an ellipsoid with these semi-axes into the case, its motion about its own centre, and its projection.
+void add_body(Case& the_case, InitialBodies& bodies, const std::string& patch, const Numbers& centre,
+              const Numbers& semi_axes, double spacing, const MotionSpec* motion) {
+    const auto divisions = [&] {
+        if (the_case.dimension == 2) {
+            return ellipsoid_divisions<2>({semi_axes[0], semi_axes[1]}, spacing);
+        }
+        return ellipsoid_divisions<3>({semi_axes[0], semi_axes[1], semi_axes[2]}, spacing);
+    };
+    bodies.ellipsoids.push_back({centre, semi_axes, divisions(), patch});
+    if (motion != nullptr) {
+        MotionSpec about_centre = *motion;
+        about_centre.centre = centre;
+        the_case.motions[patch] = about_centre;
+    }
+    ProjectionSpec projection;
+    projection.kind = ProjectionSpec::Kind::ellipsoid;
+    projection.centre = centre;
+    projection.semi_axes = semi_axes;
+    the_case.projections[patch] = projection;
+}
+
+MotionSpec turning(double rate) {
+    MotionSpec motion;
+    motion.kind = MotionSpec::Kind::rotation;
+    motion.rate = rate;
+    return motion;
+}
+
+MotionSpec expanding(double rate) {
+    MotionSpec motion;
+    motion.kind = MotionSpec::Kind::expansion;
+    motion.rate = rate;
+    return motion;
+}
+
+BoxSpec centred_box(int dimension, double edge, double size) {
+    const auto count = static_cast<std::size_t>(dimension);
+    return {Numbers(count, -edge / 2), Numbers(count, edge / 2), size, "walls"};
+}
+
+} // namespace
+
+Case experiment_case(const std::string& name, int level) {
+    const Experiment& experiment = find_experiment(name, level);
+    const double refinement = experiment.refinement[static_cast<std::size_t>(level - 1)];
+    Case result;
+    result.title = fmt::format("{}, level {}", experiment.title, level);
+    result.dimension = experiment.dimension;
+    result.experiment = name;
+    result.level = level;
+    result.split = result.dimension == 3 ? Split::C : Split::centre;
+
+    InitialBodies bodies;
+    const bool expands = name.starts_with("expanding");
+    const MotionSpec expansion = expanding(0.25);
+    const MotionSpec left_turn = turning(quarter_turn);
+    const MotionSpec right_turn = turning(-quarter_turn);
+    Spacings at{0.1, 0.5, 0.1};
+    if (name == "ellipsoid") {
+        at = {0.4, 0.8, 0.4};
+        bodies.outer = centred_box(3, 16, at.box / refinement);
+        add_body(result, bodies, "body", {0, 0, 0}, {1, 3, 2}, at.body / refinement, &left_turn);
+    } else if (name == "tandem-ellipsoids") {
+        at = {0.4, 0.8, 0.4};
+        bodies.outer = BoxSpec{{-7.5, -10, -10}, {12.5, 10, 10}, at.box / refinement, "walls"};
+        add_body(result, bodies, "first", {0, 0, 0}, {1, 3, 2}, at.body / refinement, &left_turn);
+        add_body(result, bodies, "second", {5, 0, 0}, {3, 1, 2}, at.body / refinement, &right_turn);
+    } else {
+        const auto dimension = static_cast<std::size_t>(result.dimension);
+        at = result.dimension == 3 ? Spacings{0.25, 0.6, 0.3} : Spacings{0.15, 0.4, 0.3};
+        bodies.outer = centred_box(result.dimension, 10, at.box / refinement);
+        add_body(result, bodies, "body", Numbers(dimension, 0.0), Numbers(dimension, 1.0), at.body / refinement,
+                 expands ? &expansion : nullptr);
+    }
+    result.initial = std::move(bodies);
+    result.layers = std::max(1, static_cast<int>(std::lround(refinement / at.time)));
+    return result;
+}
+
+} // namespace slabhull

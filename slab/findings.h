@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/column.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/slab/check.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace slabhull {
+
+/// Puts findings into words and into a result, keeping only so many of each kind.
+class Findings {
+public:
+    Findings(CheckResult& result, const CheckOptions& options) : result_{result}, options_{options} {}
+
+    void vertex(Defect what, Index vertex, const std::string& detail) { vertices(what, {&vertex, 1}, {}, detail); }
+    void cell(Defect what, Index cell, const std::string& detail) { cells(what, {&cell, 1}, detail); }
+
+    /// About a vertex, an edge or a facet, by its vertices, with the cells that take part.
+    void vertices(Defect what, std::span<const Index> vertices, std::span<const Index> cells,
+                  const std::string& detail);
+    /// About the first of `cells`.
+    void cells(Defect what, std::span<const Index> cells, const std::string& detail);
+    void other(Defect what, std::vector<Entity> entities, const std::string& text);
+    /// For findings that come with a count of their own.
+    void set_count(Defect what, std::size_t count) { result_.found[static_cast<std::size_t>(what)] = count; }
+
+    /// Notes once that a check was left out.
+    void skip(const std::string& check, const std::string& reason);
+
+    std::size_t count(Defect what) const { return result_.count(what); }
+    bool any(std::initializer_list<Defect> kinds) const {
+        return std::any_of(kinds.begin(), kinds.end(), [&](Defect what) { return count(what) > 0; });
+    }
+
+    /// Entities with the user's numbers.
+    std::vector<Entity> vertex_entities(std::span<const Index> vertices) const { return name("vertex", vertices); }
+    std::vector<Entity> cell_entities(std::span<const Index> cells) const { return name("cell", cells); }
+
+private:
+    bool keep(Defect what);
+    std::vector<Entity> name(const char* kind, std::span<const Index> numbers) const;
+
+    CheckResult& result_;
+    const CheckOptions& options_;
+};
+
+/// The numbers below `count` for which `bad` holds, ascending; asked in parallel.
+template<class Predicate>
+std::vector<Index> select(std::size_t count, const Predicate& bad) {
+    constexpr std::size_t grain = 1 << 16;
+    std::vector<std::vector<Index>> pieces((count + grain - 1) / grain);
+    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            if (bad(k)) {
+                pieces[begin / grain].push_back(static_cast<Index>(k));
+            }
+        }
+    });
+    std::vector<Index> all;
+    for (const std::vector<Index>& piece : pieces) {
+        all.insert(all.end(), piece.begin(), piece.end());
+    }
+    return all;
+}
+
+/// Calls visit(row, values) for each row of a column, without holding more than a few of them.
+template<class Visit>
+void each_row(const Column<std::int64_t>& column, const Visit& visit) {
+    constexpr std::size_t batch = 1 << 14;
+    const auto width = static_cast<std::size_t>(column.components());
+    std::vector<std::int64_t> values(std::min(batch, column.rows()) * width);
+    for (std::size_t begin = 0; begin < column.rows(); begin += batch) {
+        const std::size_t end = std::min(column.rows(), begin + batch);
+        column.fill(begin, end, values.data());
+        for (std::size_t row = begin; row < end; ++row) {
+            visit(row, values.data() + (row - begin) * width);
+        }
+    }
+}
+
+/// All of a column, for what is needed at random.
+template<class T>
+Array<T> read_column(const Column<std::int64_t>& column) {
+    Array<T> values(column.rows());
+    each_row(column, [&](std::size_t row, const std::int64_t* value) { values[row] = static_cast<T>(*value); });
+    return values;
+}
+
+} // namespace slabhull

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/hull_files.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/io/files.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace slabhull {
+
+namespace {
+
+using io::DataArray;
+using io::DataColumn;
+using io::MeshColumns;
+using io::Scalar;
+
+/// A column computed row by row.
+template<class T, class Value>
+Column<T> computed(std::size_t rows, Value value) {
+    return Column<T>{rows, 1, [value](std::size_t begin, std::size_t end, T* out) {
+                         for (std::size_t row = begin; row < end; ++row) {
+                             *out++ = static_cast<T>(value(row));
+                         }
+                     }};
+}
+
+template<std::size_t N>
+Column<std::int64_t> index_rows(std::span<const std::array<Index, N>> rows, std::int64_t shift = 0) {
+    return {rows.size(), N, [rows, shift](std::size_t begin, std::size_t end, std::int64_t* out) {
+                for (std::size_t row = begin; row < end; ++row) {
+                    for (const Index value : rows[row]) {
+                        *out++ = static_cast<std::int64_t>(value) + shift;
+                    }
+                }
+            }};
+}
+
+/// Three coordinates for every point: (x, y, t) or (x, y, z) of a hull, (x, y, 0) or (x, y, z) of a cap.
+template<std::size_t N>
+Column<double> first_three(std::span<const Point<static_cast<int>(N)>> points) {
+    return {points.size(), 3, [points](std::size_t begin, std::size_t end, double* out) {
+                for (std::size_t row = begin; row < end; ++row) {
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        *out++ = k < N ? points[row][k] : 0.0;
+                    }
+                }
+            }};
+}
+
+Column<std::int64_t> ids(const Array<std::int64_t>& values) {
+    return Column<std::int64_t>::over(std::span<const std::int64_t>{values});
+}
+
+template<int D>
+Array<Index> a_cell_of_each_point(const Hull<D>& hull) {
+    Array<Index> cell(hull.points.size());
+    for (std::size_t c = hull.cells.size(); c-- > 0;) {
+        for (const Index v : hull.cells[c]) {
+            cell[v] = static_cast<Index>(c);
+        }
+    }
+    return cell;
+}
+
+DataArray number_field(std::string name, Array<std::int64_t> values) { return {std::move(name), 1, std::move(values)}; }
+
+template<int D>
+Column<double> times_of(const Hull<D>& hull) {
+    return computed<double>(hull.points.size(), [&hull](std::size_t v) { return hull.points[v][D]; });
+}
+
+template<int D>
+MeshColumns mesh_columns(const Hull<D>& hull) {
+    MeshColumns mesh;
+    mesh.dimension = D;
+    mesh.points = first_three<D + 1>(hull.points);
+    mesh.cells = index_rows(std::span<const Simplex<D>>{hull.cells});
+    return mesh;
+}
+
+template<int D>
+void write_hull_vtu(const std::filesystem::path& path, const Hull<D>& hull) {
+    MeshColumns mesh = mesh_columns(hull);
+    const std::size_t cells = hull.cells.size();
+    const Array<Index> cell = a_cell_of_each_point(hull);
+    mesh.point_data = {{"t", Scalar::float64, times_of(hull)},
+                       {"vertex_id", Scalar::int64, ids(hull.vertex_ids)},
+                       {"track_id", Scalar::int64, ids(hull.track_ids)},
+                       {"cell", Scalar::int64, Column<std::int64_t>::over(std::span<const Index>{cell})}};
+    const auto region = [&hull](std::size_t c) { return static_cast<int>(hull.region(c)); };
+    const auto patch = [&hull](std::size_t c) { return hull.patch(c); };
+    const auto layer = [&hull](std::size_t c) { return hull.layer(c); };
+    mesh.cell_data = {{"region", Scalar::int32, computed<std::int64_t>(cells, region)},
+                      {"patch", Scalar::int32, computed<std::int64_t>(cells, patch)},
+                      {"layer", Scalar::int32, computed<std::int64_t>(cells, layer)},
+                      {"neighbors", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors})}};
+    Array<std::int64_t> numbers;
+    std::vector<std::string> names;
+    for (const Patch& each : hull.patches) {
+        numbers.push_back(each.number);
+        names.push_back(each.name);
+    }
+    mesh.field_data = {number_field("slab", {hull.slab}),
+                       {"time", 1, Array<double>{hull.time[0], hull.time[1]}},
+                       number_field("dimension", {D}),
+                       number_field("patch_number", std::move(numbers)),
+                       {"patch_name", 1, std::move(names)}};
+    io::write_vtu(path, mesh);
+}
+
+/// Runs of cells of one region or patch, in cell order.
+template<int D>
+std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
+    PatchNumber largest = 0;
+    for (const Patch& patch : hull.patches) {
+        largest = std::max(largest, patch.number);
+    }
+    std::vector<MeshColumns::Group> groups{{0, hull.initial_cells, largest + 1, "initial"}};
+    for (std::size_t layer = 0; layer < hull.layers; ++layer) {
+        for (std::size_t f = 0; f < hull.facet_patch.size(); ++f) {
+            const std::size_t begin =
+                hull.initial_cells + (layer * hull.facet_patch.size() + f) * hull.cells_per_prism;
+            const PatchNumber number = hull.facet_patch[f];
+            if (groups.back().number == number) {
+                groups.back().end = begin + hull.cells_per_prism;
+            } else {
+                groups.push_back({begin, begin + hull.cells_per_prism, number, patch_name(hull.patches, number)});
+            }
+        }
+    }
+    groups.push_back({hull.terminating_begin(), hull.cells.size(), largest + 2, "terminating"});
+    return groups;
+}
+
+template<int D>
+void write_hull_msh(const std::filesystem::path& path, const Hull<D>& hull) {
+    MeshColumns mesh = mesh_columns(hull);
+    mesh.groups = groups_of(hull);
+    if constexpr (D == 3) {
+        mesh.point_data.push_back({"t", Scalar::float64, times_of(hull)});
+    }
+    mesh.point_data.push_back({"vertex_id", Scalar::int64, ids(hull.vertex_ids)});
+    mesh.point_data.push_back({"track_id", Scalar::int64, ids(hull.track_ids)});
+    // Element tags count from 1.
+    mesh.cell_data = {{"neighbor", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors}, 1)}};
+    io::write_msh(path, mesh);
+}
+
+std::size_t row_count(const DataArray& array) {
+    const auto values = std::visit([](const auto& stored) { return stored.size(); }, array.values);
+    return values / static_cast<std::size_t>(std::max(1, array.components));
+}
+
+/// The array as whole numbers; MSH holds them as doubles.
+Array<std::int64_t> whole_numbers(const io::Soup& soup, const DataArray& array) {
+    if (const auto* integers = std::get_if<Array<std::int64_t>>(&array.values)) {
+        return *integers;
+    }
+    const auto* reals = std::get_if<Array<double>>(&array.values);
+    Array<std::int64_t> whole;
+    for (const double value : reals != nullptr ? *reals : Array<double>{}) {
+        if (!(value >= -9e15 && value <= 9e15) || value != static_cast<double>(static_cast<std::int64_t>(value))) {
+            throw InputError(fmt::format("{}: array \"{}\": {} is not a whole number", soup.path, array.name, value));
+        }
+        whole.push_back(static_cast<std::int64_t>(value));
+    }
+    return whole;
+}
+
+/// A given array of whole numbers with the right shape, or an empty one.
+Array<std::int64_t> optional_numbers(const io::Soup& soup, const DataArray* array, std::size_t rows, int components) {
+    if (array == nullptr) {
+        return {};
+    }
+    if (array->components != components || row_count(*array) != rows) {
+        throw InputError(fmt::format("{}: array \"{}\" has {} rows of {}, expected {} of {}", soup.path, array->name,
+                                     row_count(*array), array->components, rows, components));
+    }
+    return whole_numbers(soup, *array);
+}
+
+template<int K>
+Array<Simplex<K>> simplices_of(const io::Soup& soup) {
+    const Array<Index>& vertices = soup.simplices[K].vertices;
+    Array<Simplex<K>> cells(vertices.size() / (K + 1));
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        cells[i / (K + 1)][i % (K + 1)] = vertices[i];
+    }
+    return cells;
+}
+
+template<int D>
+Array<Point<D + 1>> space_time_points(const io::Soup& soup) {
+    Array<Point<D + 1>> points(soup.points.size());
+    const Array<double>* times = nullptr;
+    if constexpr (D == 3) {
+        const DataArray* array = soup.find_point_data("t");
+        times = array == nullptr ? nullptr : std::get_if<Array<double>>(&array->values);
+        if (times == nullptr || times->size() != points.size()) {
+            throw InputError(fmt::format("{}: needs a point array \"t\" of real numbers, one for each point", soup.path));
+        }
+    }
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        std::copy(soup.points[v].begin(), soup.points[v].end(), points[v].begin());
+        if (times != nullptr) {
+            points[v][D] = (*times)[v];
+        }
+    }
+    return points;
+}
+
+/// What an MSH says through physical groups: regions by name, the other groups are patches.
+template<int D>
+void read_groups(const io::Soup& soup, HullArrays<D>& hull) {
+    PatchNumber initial = 0;
+    PatchNumber terminating = 0;
+    for (const Patch& group : soup.groups[D]) {
+        if (group.name == "initial") {
+            initial = group.number;
+        } else if (group.name == "terminating") {
+            terminating = group.number;
+        } else {
+            hull.patches.push_back(group);
+        }
+    }
+    if (initial == 0 || terminating == 0) {
+        hull.patches.clear();
+        return;
+    }
+    for (const PatchNumber group : soup.simplices[D].physical) {
+        const bool cap = group == initial || group == terminating;
+        hull.region.push_back(cap ? (group == initial ? 0 : 2) : 1);
+        hull.patch.push_back(cap ? 0 : group);
+    }
+}
+
+template<int D>
+void read_msh_neighbors(const io::Soup& soup, HullArrays<D>& hull) {
+    hull.neighbors.resize(hull.cells.size() * (D + 1));
+    for (std::size_t i = 0; i <= D; ++i) {
+        const DataArray* array = soup.find_cell_data(fmt::format("neighbor_{}", i));
+        const auto tags = optional_numbers(soup, array, hull.cells.size(), 1);
+        if (tags.empty()) {
+            hull.neighbors.clear();
+            return;
+        }
+        for (std::size_t c = 0; c < tags.size(); ++c) {
+            hull.neighbors[c * (D + 1) + i] = tags[c] - 1;
+        }
+    }
+}
+
+template<int D>
+void read_fields(const io::Soup& soup, HullArrays<D>& hull) {
+    if (const DataArray* time = soup.find_field_data("time")) {
+        if (const auto* values = std::get_if<Array<double>>(&time->values); values != nullptr && values->size() == 2) {
+            hull.time = {{(*values)[0], (*values)[1]}};
+        }
+    }
+    const DataArray* numbers = soup.find_field_data("patch_number");
+    const DataArray* names = soup.find_field_data("patch_name");
+    if (numbers != nullptr && names != nullptr) {
+        const Array<std::int64_t> given = whole_numbers(soup, *numbers);
+        const auto* texts = std::get_if<std::vector<std::string>>(&names->values);
+        for (std::size_t i = 0; texts != nullptr && i < std::min(given.size(), texts->size()); ++i) {
+            hull.patches.push_back({static_cast<PatchNumber>(given[i]), (*texts)[i]});
+        }
+    }
+}
+
+Column<std::int64_t> optional_column(const Array<std::int64_t>& values, int components = 1) {
+    return values.empty() ? Column<std::int64_t>{}
+                          : Column<std::int64_t>::over(std::span<const std::int64_t>{values}, components);
+}
+
+} // namespace
+
+template<int D>
+void write_hull(const std::filesystem::path& path, const Hull<D>& hull, const std::string& format) {
+    if (format == "msh") {
+        write_hull_msh(path, hull);
+    } else {
+        write_hull_vtu(path, hull);
+    }
+}
+
+template<int D>
+void write_cap(const std::filesystem::path& path, const SpatialMesh<D>& cap, double time) {
+    MeshColumns mesh;
+    mesh.dimension = D;
+    mesh.points = first_three<D>(cap.points);
+    mesh.cells = index_rows(std::span<const Simplex<D>>{cap.cells});
+    mesh.point_data = {{"vertex_id", Scalar::int64, ids(cap.vertex_ids)},
+                       {"track_id", Scalar::int64, ids(cap.track_ids)}};
+    mesh.field_data = {{"time", 1, Array<double>{time}}, number_field("dimension", {D})};
+    io::write_vtu(path, mesh);
+}
+
+MeshKind kind_of(const io::Soup& soup) {
+    const int dimension = soup.top_dimension();
+    if (dimension < 2) {
+        throw InputError(fmt::format("{}: has neither triangles nor tetrahedra", soup.path));
+    }
+    const PatchList& groups = soup.groups[static_cast<std::size_t>(dimension)];
+    return {dimension, soup.find_point_data("t") != nullptr || patch_number(groups, "terminating") != 0};
+}
+
+template<int D>
+HullArrays<D> hull_of_soup(const io::Soup& soup) {
+    HullArrays<D> hull;
+    hull.points = space_time_points<D>(soup);
+    hull.cells = simplices_of<D>(soup);
+    const auto of_cells = [&](const char* name, int components) {
+        return optional_numbers(soup, soup.find_cell_data(name), hull.cells.size(), components);
+    };
+    const auto of_points = [&](const char* name) {
+        return optional_numbers(soup, soup.find_point_data(name), hull.points.size(), 1);
+    };
+    read_fields(soup, hull);
+    if (soup.find_cell_data("region") != nullptr) {
+        hull.region = of_cells("region", 1);
+        hull.patch = of_cells("patch", 1);
+        hull.layer = of_cells("layer", 1);
+        hull.neighbors = of_cells("neighbors", D + 1);
+    } else {
+        read_groups(soup, hull);
+        read_msh_neighbors(soup, hull);
+    }
+    hull.vertex_id = of_points("vertex_id");
+    hull.track_id = of_points("track_id");
+    hull.cell_of_vertex = of_points("cell");
+    return hull;
+}
+
+template<int D>
+HullColumns<D> HullArrays<D>::columns() const {
+    HullColumns<D> all;
+    all.points = points;
+    all.cells = cells;
+    all.region = optional_column(region);
+    all.patch = optional_column(patch);
+    all.layer = optional_column(layer);
+    all.vertex_id = optional_column(vertex_id);
+    all.track_id = optional_column(track_id);
+    all.neighbors = optional_column(neighbors, D + 1);
+    all.cell_of_vertex = optional_column(cell_of_vertex);
+    all.patches = patches;
+    all.time = time;
+    return all;
+}
+
+template<int D>
+MeshArrays<D> mesh_of_soup(const io::Soup& soup) {
+    MeshArrays<D> mesh;
+    mesh.cells = simplices_of<D>(soup);
+    for (const Point<3>& x : soup.points) {
+        Point<D>& point = mesh.points.emplace_back();
+        std::copy_n(x.begin(), D, point.begin());
+    }
+    return mesh;
+}
+
+template void write_hull<2>(const std::filesystem::path&, const Hull<2>&, const std::string&);
+template void write_hull<3>(const std::filesystem::path&, const Hull<3>&, const std::string&);
+template void write_cap<2>(const std::filesystem::path&, const SpatialMesh<2>&, double);
+template void write_cap<3>(const std::filesystem::path&, const SpatialMesh<3>&, double);
+template struct HullArrays<2>;
+template struct HullArrays<3>;
+template HullArrays<2> hull_of_soup<2>(const io::Soup&);
+template HullArrays<3> hull_of_soup<3>(const io::Soup&);
+template MeshArrays<2> mesh_of_soup<2>(const io::Soup&);
+template MeshArrays<3> mesh_of_soup<3>(const io::Soup&);
+
+} // namespace slabhull

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/column.h"
+#include "slabhull/core/error.h"
+#include "slabhull/core/patch.h"
+#include "slabhull/core/point.h"
+#include "slabhull/geometry/measures.h"
+#include "slabhull/topology/hull.h"
+#include "slabhull/topology/manifold.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slabhull {
+
+/// What can be wrong with a hull or a spatial mesh. defect_name() gives the stable name of each in reports.
+enum class Defect {
+    // The columns themselves
+    no_cells,
+    column_length,           ///< a claim has a wrong number of rows or components
+    index_out_of_range,      ///< a cell names a vertex that does not exist
+    non_finite_coordinate,
+    // Connectivity: see ManifoldDefect
+    repeated_vertex,
+    duplicate_cell,
+    unused_vertex,
+    open_facet,
+    overfull_facet,
+    disoriented_facet,
+    singular_edge,
+    singular_vertex,
+    euler_mismatch,          ///< the hull has not the Euler characteristic that its caps ask for (D = 2)
+    // Shape
+    coincident_vertices,
+    degenerate_cell,         ///< measure below 1e-14 of the longest edge to the power D
+    not_closed,              ///< sum of normals is not zero to rounding, though every facet is closed
+    inward_orientation,      ///< the enclosed measure is not positive
+    inverted_cell,           ///< a cap cell facing the other way in time; in a spatial mesh, a sign other than most
+    // Time and regions
+    no_duration,             ///< all vertices at one time
+    wrong_slab_time,         ///< no cap at the slab time that is claimed
+    time_outside_slab,
+    missing_cap,
+    cap_not_flat,            ///< a cell claimed for a cap has vertices off the cap's time
+    wrong_region,            ///< claimed for another region than its vertices' times show
+    flat_side_cell,          ///< a side cell within one instant
+    // Boundary and tracks
+    untracked_boundary,      ///< a vertex where a cap meets the side has no track
+    stray_track,             ///< a vertex inside a cap has a track
+    track_repeats_time,      ///< two vertices of a track at one time
+    track_incomplete,        ///< a track does not lead from the slab's start to its end
+    boundary_facet_lost,     ///< the terminating cap lacks the image of a facet of the initial cap's boundary
+    boundary_facet_added,    ///< the terminating cap's boundary has a facet that is no such image
+    boundary_facet_reversed, ///< the image is there, with the other orientation
+    // Claims
+    negative_vertex_id,
+    duplicate_vertex_id,
+    wrong_patch,             ///< not positive on the side, or not 0 in a cap
+    unknown_patch,           ///< not in the list of patches
+    patch_mismatch,          ///< the side over one boundary facet carries different patches
+    wrong_layer,             ///< not -1 in a cap, negative on the side, or the cell's times are not those of its layer
+    layer_gap,               ///< a layer is empty, or does not start where the one before ends
+    wrong_neighbor,
+    wrong_vertex_cell,       ///< the cell claimed to use a vertex does not
+    // Spatial meshes only
+    folded_facet,            ///< two cells of the same sign on the same side of their common facet
+    singular_boundary_ridge, ///< boundary facets meeting there are not two (D = 3: an edge, D = 2: a vertex)
+    singular_boundary_vertex ///< boundary facets at the vertex are not one fan (D = 3)
+};
+inline constexpr std::size_t defect_kinds = static_cast<std::size_t>(Defect::singular_boundary_vertex) + 1;
+
+/// Such as "open-facet".
+std::string_view defect_name(Defect what);
+
+struct Finding {
+    Defect what;
+    std::vector<Entity> entities; ///< kinds "vertex", "cell", "track", "patch", "layer"; the chief one first
+    std::string text;             ///< a line for the user
+};
+
+struct CheckOptions {
+    bool betti = false;             ///< compute the Betti numbers, too
+    std::size_t most_findings = 20; ///< kept of each kind; all are counted
+    /// The user's numbers of vertices and cells; empty: counted from 0.
+    std::function<std::int64_t(Index)> vertex_number;
+    std::function<std::int64_t(Index)> cell_number;
+};
+
+/// What a check found, and what it could not look at because of what it found.
+struct CheckResult {
+    std::vector<Finding> findings;
+    std::array<std::size_t, defect_kinds> found{}; ///< of each kind, kept or not
+    std::vector<std::string> skipped;              ///< checks left out, each with its reason
+
+    std::size_t count(Defect what) const { return found[static_cast<std::size_t>(what)]; }
+    std::size_t total() const;
+    bool clean() const { return total() == 0; }
+};
+
+/// A hull as a file may tell it: points and cells, and claims that need not be given.
+/// What it refers to must outlive it.
+template<int D>
+struct HullColumns {
+    std::span<const Point<D + 1>> points; ///< time last
+    std::span<const Simplex<D>> cells;
+
+    Column<std::int64_t> region;
+    Column<std::int64_t> patch;
+    Column<std::int64_t> layer;
+    Column<std::int64_t> neighbors; ///< D + 1 components; -1 for none
+    Column<std::int64_t> vertex_id;
+    Column<std::int64_t> track_id;
+    Column<std::int64_t> cell_of_vertex;
+    PatchList patches; ///< empty: not given
+    std::optional<std::array<double, 2>> time;
+};
+
+/// The columns of a hull, which must outlive them; without cell_of_vertex, which a hull does not store.
+template<int D>
+HullColumns<D> columns_of(const Hull<D>& hull);
+
+struct PatchCount {
+    PatchNumber number = 0;
+    std::size_t cells = 0;
+};
+
+struct HullReport : CheckResult {
+    int dimension = 0;
+    ManifoldCounts counts;
+    std::array<double, 2> time{};                   ///< as the vertices show it
+    std::array<std::size_t, 3> cells_by_region{};   ///< as the vertices' times show it
+    std::vector<PatchCount> cells_by_patch;         ///< of the side, by number, as claimed
+    std::size_t layers = 0;                         ///< as claimed
+    double measure = 0;
+    std::array<double, 3> measure_by_region{};
+    double enclosed = 0;
+    double closure = 0; ///< |sum of N|
+    AngleRange angles{180, 0};
+    std::vector<std::size_t> betti; ///< empty unless asked for and the hull is a manifold
+};
+
+/// The whole check of a hull. It recomputes from connectivity and coordinates and only compares with the claims.
+/// Checks build on each other: where one finds the ground missing, those above it are listed as skipped.
+/// Cost: near-linear; about 40 extra bytes per cell (60 with Betti numbers). The same report for any number of threads.
+template<int D>
+HullReport check_hull(const HullColumns<D>& hull, const CheckOptions& options = {});
+
+struct MeshReport : CheckResult {
+    int dimension = 0;
+    std::size_t vertices = 0; ///< used ones
+    std::size_t cells = 0;
+    std::size_t boundary_facets = 0;
+    std::size_t components = 0;
+    int orientation = 1; ///< sign of most cells
+    double measure = 0;  ///< of all cells, positive when most are
+    AngleRange angles{180, 0};
+};
+
+/// The check of a spatial mesh in R^D: cells, facets and boundary.
+template<int D>
+MeshReport check_mesh(std::span<const Point<D>> points, std::span<const Simplex<D>> cells,
+                      const CheckOptions& options = {});
+
+extern template HullColumns<2> columns_of<2>(const Hull<2>&);
+extern template HullColumns<3> columns_of<3>(const Hull<3>&);
+extern template HullReport check_hull<2>(const HullColumns<2>&, const CheckOptions&);
+extern template HullReport check_hull<3>(const HullColumns<3>&, const CheckOptions&);
+extern template MeshReport check_mesh<2>(std::span<const Point<2>>, std::span<const Simplex<2>>, const CheckOptions&);
+extern template MeshReport check_mesh<3>(std::span<const Point<3>>, std::span<const Simplex<3>>, const CheckOptions&);
+
+} // namespace slabhull

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/array.h"
+#include "slabhull/io/soup.h"
+#include "slabhull/slab/check.h"
+#include "slabhull/topology/hull.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slabhull {
+
+/// Writes a hull in `format`, "vtu" or "msh", with the arrays of docs/formats.md. Streams: no second copy is made.
+/// Throws OutputError; nothing is left under the final name then.
+template<int D>
+void write_hull(const std::filesystem::path& path, const Hull<D>& hull, const std::string& format);
+
+/// Writes a cap as a spatial mesh with ids and tracks.
+template<int D>
+void write_cap(const std::filesystem::path& path, const SpatialMesh<D>& cap, double time);
+
+/// What kind of mesh a file holds.
+struct MeshKind {
+    int dimension; ///< of its simplices
+    bool hull;     ///< a hull in space-time; otherwise a mesh in space
+};
+
+/// A hull has a point array "t" or, in an MSH of triangles, regions among its physical groups.
+/// Throws InputError when the soup has neither triangles nor tetrahedra.
+MeshKind kind_of(const io::Soup& soup);
+
+/// A hull as a file has it: the arrays that are in it, empty where they are not.
+template<int D>
+struct HullArrays {
+    Array<Point<D + 1>> points;
+    Array<Simplex<D>> cells;
+    Array<std::int64_t> region, patch, layer, neighbors;
+    Array<std::int64_t> vertex_id, track_id, cell_of_vertex;
+    PatchList patches;
+    std::optional<std::array<double, 2>> time;
+
+    HullColumns<D> columns() const;
+};
+
+/// Takes the arrays of a hull out of what a VTU or MSH says; throws InputError for arrays of the wrong shape.
+template<int D>
+HullArrays<D> hull_of_soup(const io::Soup& soup);
+
+/// The used points and the cells of a spatial mesh, as the file has them.
+template<int D>
+struct MeshArrays {
+    Array<Point<D>> points;
+    Array<Simplex<D>> cells;
+};
+template<int D>
+MeshArrays<D> mesh_of_soup(const io::Soup& soup);
+
+} // namespace slabhull

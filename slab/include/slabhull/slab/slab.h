@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/slab/case.h"
+#include "slabhull/slab/stage_clock.h"
+#include "slabhull/slab/stitch.h"
+#include "slabhull/slab/sweep.h"
+#include "slabhull/topology/hull.h"
+
+namespace slabhull {
+
+/// What all slabs of a march share.
+template<int D>
+struct SlabSettings {
+    PatchMotions<D> motions;
+    double motion_start = 0; ///< time at which projection surfaces are given
+    TrajectoryOptions trajectory;
+    Split split = D == 3 ? Split::C : Split::centre;
+    CapOptions cap;
+};
+
+/// One slab: its hull, and the cap that the next one starts from.
+template<int D>
+struct Slab {
+    Hull<D> hull;
+    SpatialMesh<D> terminating;
+    std::map<PatchNumber, ProjectionReport> projected;
+};
+
+/// The settings that a case gives, for a domain with the given patches.
+/// Throws UsageError for a motion or projection of a patch that there is not.
+template<int D>
+SlabSettings<D> settings_of(const Case& the_case, const PatchList& patches);
+
+/// Builds slab `number` over the levels `times` on the initial cap: the seven steps of the method. The hull is not
+/// checked as a whole (check_hull() does); the boundary is, on every level, and so is the terminating cap.
+/// Throws GeometryError naming what and where: motions that disagree, a boundary that crosses itself or leaves its box
+/// (facets by number and patch, with the time), a cap that cannot be meshed.
+template<int D>
+Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double> times,
+                   const SlabSettings<D>& settings, IdCounter& ids, StageClock& clock);
+
+} // namespace slabhull

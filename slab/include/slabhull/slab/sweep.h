@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/array.h"
+#include "slabhull/core/point.h"
+#include "slabhull/geometry/motion.h"
+#include "slabhull/geometry/projection.h"
+#include "slabhull/geometry/trajectory.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace slabhull {
+
+/// What a patch does: its motion, and the surface that its vertices are put back on, which moves along.
+template<int D>
+struct MovingPatch {
+    std::shared_ptr<const Motion<D>> motion;
+    /// Null: no projection. Otherwise the motion must have a closed form.
+    std::shared_ptr<const ProjectionSurface<D>> surface;
+};
+
+/// The moving patches by number; a patch that is not here stands still.
+template<int D>
+using PatchMotions = std::map<PatchNumber, MovingPatch<D>>;
+
+/// The boundary of the domain on every level of a slab: step 3 of the method.
+template<int D>
+struct Sweep {
+    Surface<D> surface;        ///< at the first level; its vertices are the swept ones
+    Array<Index> cap_vertex;   ///< vertex of the initial cap that each of them is
+    std::vector<double> times; ///< of the levels, ascending
+    std::vector<Array<Point<D>>> positions; ///< by level, then by vertex; the first is surface.points
+    std::map<PatchNumber, ProjectionReport> projected; ///< how far projection moved each patch, over all levels
+
+    std::size_t layers() const { return times.size() - 1; }
+    /// The surface at a level.
+    Surface<D> at(std::size_t level) const;
+};
+
+/// The boundary of a cap as a surface of its own. Vertices in the order of the cap's.
+/// `cap_vertex` receives the cap's vertex for each.
+template<int D>
+Surface<D> boundary_of(const SpatialMesh<D>& cap, Array<Index>& cap_vertex);
+
+/// Sweeps the boundary of `cap` through the levels `times`. `motion_start` is the time that projection surfaces are
+/// given at: they are placed by the motion from then to each level.
+/// A vertex shared by patches goes with all their motions, which must agree there.
+/// Throws GeometryError naming the patches and the vertices where motions disagree.
+template<int D>
+Sweep<D> sweep_boundary(const SpatialMesh<D>& cap, const PatchMotions<D>& motions, double motion_start,
+                        std::vector<double> times, const TrajectoryOptions& options);
+
+} // namespace slabhull

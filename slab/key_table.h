@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slabhull {
+
+/// A table of a TOML file that remembers which keys were asked for, so that the others can be called unknown, and that
+/// turns every mismatch into a UsageError naming the file, the line, the key and what was expected.
+class KeyTable {
+public:
+    /// Throws InputError when the file cannot be read, UsageError when it is not TOML.
+    static KeyTable parse_file(const std::filesystem::path& path);
+
+    bool has(const std::string& key) const;
+    std::vector<std::string> keys() const;
+
+    std::string text(const std::string& key);
+    std::optional<std::string> optional_text(const std::string& key);
+    int integer(const std::string& key, int smallest, int largest);
+    double number(const std::string& key);
+    double number_or(const std::string& key, double otherwise);
+    double positive(const std::string& key);
+    /// `count` numbers; all of them finite.
+    std::vector<double> numbers(const std::string& key, int count);
+    std::vector<double> positives(const std::string& key, int count);
+    /// `count` numbers that are not all zero.
+    std::vector<double> direction(const std::string& key, int count);
+    /// `count` texts; any number when it is negative.
+    std::vector<std::string> texts(const std::string& key, int count);
+    std::map<std::string, double> optional_constants(const std::string& key);
+
+    KeyTable table(const std::string& key);
+    /// An empty table where there is none.
+    KeyTable optional_table(const std::string& key);
+    std::vector<KeyTable> optional_tables(const std::string& key);
+
+    template<class T>
+    T choice(const std::string& key, const std::map<std::string, T>& choices) {
+        const std::string name = text(key);
+        const auto found = choices.find(name);
+        if (found == choices.end()) {
+            std::string known;
+            for (const auto& [each, value] : choices) {
+                known += (known.empty() ? "\"" : ", \"") + each + "\"";
+            }
+            fail(key, (choices.size() > 1 ? "one of " : "") + known + ", not \"" + name + "\"");
+        }
+        return found->second;
+    }
+
+    /// Throws UsageError: at `key` of this table, `expected` was expected.
+    [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
+    /// Throws UsageError for the first key that nobody asked for, naming the nearest known one.
+    void require_all_known() const;
+
+private:
+    struct Node; // keeps toml++ out of this header
+    explicit KeyTable(std::shared_ptr<Node> node);
+    std::shared_ptr<Node> node_;
+};
+
+} // namespace slabhull

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace slabhull {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json angles_as_json(const AngleRange& angles) { return {{"smallest", angles.smallest}, {"largest", angles.largest}}; }
+
+Json findings_as_json(const CheckResult& result) {
+    Json findings = Json::array();
+    for (const Finding& finding : result.findings) {
+        Json entities = Json::array();
+        for (const Entity& entity : finding.entities) {
+            entities.push_back({{"kind", entity.kind}, {"number", entity.number}});
+        }
+        findings.push_back({{"defect", defect_name(finding.what)},
+                            {"entities", std::move(entities)},
+                            {"text", finding.text}});
+    }
+    return findings;
+}
+
+Json defects_as_json(const CheckResult& result) {
+    Json defects = Json::object();
+    for (std::size_t kind = 0; kind < defect_kinds; ++kind) {
+        if (result.found[kind] > 0) {
+            defects[std::string{defect_name(static_cast<Defect>(kind))}] = result.found[kind];
+        }
+    }
+    return defects;
+}
+
+void add_result(Json& json, const CheckResult& result) {
+    json["clean"] = result.clean();
+    json["defects"] = defects_as_json(result);
+    json["findings"] = findings_as_json(result);
+    json["skipped"] = result.skipped;
+}
+
+} // namespace
+
+nlohmann::ordered_json as_json(const HullReport& report) {
+    Json patches = Json::object();
+    for (const PatchCount& patch : report.cells_by_patch) {
+        patches[std::to_string(patch.number)] = patch.cells;
+    }
+    const auto& regions = report.cells_by_region;
+    const auto& measures = report.measure_by_region;
+    Json json{
+        {"kind", "hull"},
+        {"dimension", report.dimension},
+        {"time", report.time},
+        {"counts",
+         {{"vertices", report.counts.vertices},
+          {"edges", report.counts.edges},
+          {"facets", report.counts.facets},
+          {"cells", report.counts.cells},
+          {"components", report.counts.components},
+          {"euler", report.counts.euler},
+          {"layers", report.layers}}},
+        {"cells_by_region", {{"initial", regions[0]}, {"intermediate", regions[1]}, {"terminating", regions[2]}}},
+        {"cells_by_patch", std::move(patches)},
+        {"measure",
+         {{"hull", report.measure},
+          {"initial", measures[0]},
+          {"intermediate", measures[1]},
+          {"terminating", measures[2]},
+          {"enclosed", report.enclosed},
+          {"closure", report.closure}}},
+        {"angle", angles_as_json(report.angles)},
+    };
+    if (!report.betti.empty()) {
+        json["betti"] = report.betti;
+    }
+    add_result(json, report);
+    return json;
+}
+
+nlohmann::ordered_json as_json(const MeshReport& report) {
+    Json json{{"kind", "mesh"},
+              {"dimension", report.dimension},
+              {"counts",
+               {{"vertices", report.vertices},
+                {"cells", report.cells},
+                {"boundary_facets", report.boundary_facets},
+                {"components", report.components}}},
+              {"measure", report.measure},
+              {"angle", angles_as_json(report.angles)}};
+    add_result(json, report);
+    return json;
+}
+
+std::string findings_as_text(const CheckResult& result) {
+    std::string text;
+    std::array<std::size_t, defect_kinds> shown{};
+    for (const Finding& finding : result.findings) {
+        text += fmt::format("  {}: {}\n", defect_name(finding.what), finding.text);
+        ++shown[static_cast<std::size_t>(finding.what)];
+    }
+    for (std::size_t kind = 0; kind < defect_kinds; ++kind) {
+        if (shown[kind] < result.found[kind]) {
+            text += fmt::format("  {}: {} more\n", defect_name(static_cast<Defect>(kind)),
+                                result.found[kind] - shown[kind]);
+        }
+    }
+    for (const std::string& reason : result.skipped) {
+        text += fmt::format("  not checked: {}\n", reason);
+    }
+    return text;
+}
+
+} // namespace slabhull

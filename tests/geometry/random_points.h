@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/point.h"
+
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+namespace slabhull::tests {
+
+/// `count` points with coordinates in [-reach, reach), the same in every run and with every standard library.
+template<int D>
+std::vector<Point<D>> random_points(std::size_t count, double reach, std::uint64_t seed = 1) {
+    std::mt19937_64 generator{seed};
+    std::vector<Point<D>> points(count);
+    for (Point<D>& point : points) {
+        for (double& coordinate : point) {
+            const auto bits = static_cast<double>(generator() >> 11);
+            coordinate = reach * (std::ldexp(bits, -52) - 1);
+        }
+    }
+    return points;
+}
+
+template<std::size_t N>
+double distance(const std::array<double, N>& a, const std::array<double, N>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < N; ++i) {
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+    }
+    return std::sqrt(sum);
+}
+
+} // namespace slabhull::tests

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the end-to-end tests share: running the program, scratch directories, case files, reading results."""
+import json
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = os.environ["SLABHULL_PROGRAM"]
+ROOT = Path(os.environ["SLABHULL_ROOT"])
+SKIPPED = 77  # ctest's SKIP_RETURN_CODE
+
+
+class Result:
+    def __init__(self, done):
+        self.code, self.out, self.err = done.returncode, done.stdout, done.stderr
+
+
+def slabhull(*arguments, timeout=600):
+    """Runs the program; a crash (negative return code) is never what a test wants."""
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=timeout)
+    assert done.returncode >= 0, f"killed by signal {-done.returncode}: {done.stderr}"
+    return Result(done)
+
+
+class ProgramTest(unittest.TestCase):
+    """A test with a scratch directory of its own."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="slabhull-test-")
+        self.addCleanup(scratch.cleanup)
+        self.dir = Path(scratch.name)
+
+    def case(self, text, name="case.toml"):
+        path = self.dir / name
+        path.write_text(text)
+        return path
+
+    def build(self, case, *options, out="out"):
+        """Builds a case that must succeed; returns the directory and the report."""
+        result = slabhull("build", case, "--out", self.dir / out, "--quiet", *options)
+        self.assertEqual(result.code, 0, result.err)
+        return self.dir / out, json.loads((self.dir / out / "report.json").read_text())
+
+    def check(self, path):
+        """Checks a file that must be sound; returns the JSON document."""
+        result = slabhull("check", path, "--json")
+        self.assertEqual(result.code, 0, result.out + result.err)
+        return json.loads(result.out)
+
+    def refused(self, case, code, *words):
+        """The case must fail with this exit code, name all the words, and leave nothing behind."""
+        result = slabhull("build", case, "--out", self.dir / "out")
+        self.assertEqual(result.code, code, f"{result.out}{result.err}")
+        for word in words:
+            self.assertIn(word, result.err)
+        left = [str(p) for p in (self.dir / "out").rglob("*") if p.is_file()] if (self.dir / "out").exists() else []
+        self.assertEqual(left, [])
+        return result
+
+
+def main():
+    program = unittest.main(exit=False)
+    result = program.result
+    if result.wasSuccessful() and result.testsRun > 0 and len(result.skipped) == result.testsRun:
+        raise SystemExit(SKIPPED)
+    raise SystemExit(0 if result.wasSuccessful() and result.testsRun > 0 else 1)

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the program writes: the same bytes every time, and the same mesh to every independent reader."""
+import importlib.util
+import json
+import shutil
+
+import harness
+from harness import ROOT, ProgramTest, slabhull
+
+ELLIPSOID = '[initial]\nexperiment = "ellipsoid"\nlevel = 1\n'
+CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 2\n[time]\nslabs = 2\n'
+
+
+def meshes(directory):
+    return {p.name: p.read_bytes() for p in sorted(directory.iterdir()) if p.suffix != ".json"}
+
+
+class Determinism(ProgramTest):
+    def test_two_runs_and_any_number_of_threads_give_the_same_bytes(self):
+        shutil.copy(ROOT / "examples/room.msh", self.dir)
+        room = self.case((ROOT / "examples/room.toml").read_text(), "room.toml")
+        for case in (self.case(CIRCLE), room):
+            first, _ = self.build(case, "--threads", 1, out="first")
+            again, _ = self.build(case, "--threads", 1, out="again")
+            other, _ = self.build(case, "--threads", 2, out="other")
+            self.assertEqual(meshes(first), meshes(again))
+            self.assertEqual(meshes(first), meshes(other))
+            for directory in (first, again, other):
+                shutil.rmtree(directory)
+
+
+class Files(ProgramTest):
+    def test_the_files_and_the_report_of_two_slabs(self):
+        out, report = self.build(self.case(CIRCLE))
+        self.assertEqual(sorted(p.name for p in out.iterdir()),
+                         ["cap_0001.vtu", "cap_0002.vtu", "report.json", "slab_0000.msh", "slab_0000.vtu",
+                          "slab_0001.msh", "slab_0001.vtu"])
+        for slab in report["slabs"]:
+            self.assertTrue(slab["clean"])
+            self.assertGreater(slab["angle"]["smallest"], 0)
+            self.assertIn("cap meshing", slab["seconds"])
+        self.assertGreater(report["peak_memory"]["bytes"], 0)
+
+    def test_only_the_formats_asked_for_are_written(self):
+        out, _ = self.build(self.case(CIRCLE + '[output]\nformats = ["msh"]\n'))
+        self.assertFalse((out / "slab_0000.vtu").exists())
+        self.assertTrue((out / "slab_0000.msh").exists())
+
+
+def vtk_arrays(path):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+
+    def arrays(data):
+        return {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+
+    return {"points": vtk_to_numpy(grid.GetPoints().GetData()),
+            "cells": vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(grid.GetNumberOfCells(), -1),
+            **arrays(grid.GetPointData()), **arrays(grid.GetCellData())}
+
+
+class IndependentReaders(ProgramTest):
+    """VTK, meshio and Gmsh see the same points and cells in what we write, and the arrays fit together."""
+
+    def setUp(self):
+        super().setUp()
+        for module in ("vtkmodules", "meshio", "gmsh", "numpy"):
+            if importlib.util.find_spec(module) is None:
+                self.skipTest(f"no {module} here")
+
+    def test_the_hulls_of_a_case_in_each_dimension(self):
+        for text, kind in ((CIRCLE, "triangle"), (ELLIPSOID, "tetra")):
+            out, report = self.build(self.case(text))
+            self.compare(out, report["slabs"][0], kind)
+
+    def compare(self, out, slab, kind):
+        import meshio
+        import numpy as np
+        seen = vtk_arrays(out / "slab_0000.vtu")
+        counts = slab["counts"]
+        self.assertEqual(len(seen["points"]), counts["vertices"])
+        self.assertEqual(len(seen["cells"]), counts["cells"])
+
+        vtu = meshio.read(out / "slab_0000.vtu")
+        msh = meshio.read(out / "slab_0000.msh")
+        for other in (vtu, msh):
+            np.testing.assert_array_equal(other.points, seen["points"])
+            cells = np.concatenate([block.data for block in other.cells if block.type == kind])
+            np.testing.assert_array_equal(cells, seen["cells"])
+        for name in ("t", "vertex_id", "track_id", "cell"):
+            np.testing.assert_array_equal(vtu.point_data[name], seen[name])
+        self.relations(seen, slab)
+        self.gmsh_agrees(out / "slab_0000.msh", seen)
+
+    def relations(self, seen, slab):
+        import numpy as np
+        cells, neighbors = seen["cells"], seen["neighbors"]
+        self.assertEqual(len(np.unique(seen["vertex_id"])), len(seen["points"]))
+        self.assertTrue((cells[seen["cell"]] == np.arange(len(seen["points"]))[:, None]).any(axis=1).all())
+        # Across facet i lies a cell that has the facet's vertices, and that names this cell in return.
+        for i in range(cells.shape[1]):
+            facet = np.sort(np.delete(cells, i, axis=1))
+            across = cells[neighbors[:, i]]
+            found = (facet[:, :, None] == across[:, None, :]).any(axis=2).all()
+            self.assertTrue(found)
+            self.assertTrue((neighbors[neighbors[:, i]] == np.arange(len(cells))[:, None]).any(axis=1).all())
+        regions = np.bincount(seen["region"], minlength=3)
+        self.assertEqual(list(regions), list(slab["cells_by_region"].values()))
+
+    def gmsh_agrees(self, path, seen):
+        import gmsh
+        import numpy as np
+        gmsh.initialize()
+        try:
+            gmsh.option.setNumber("General.Terminal", 0)
+            gmsh.open(str(path))
+            tags, points, _ = gmsh.model.mesh.getNodes()
+            np.testing.assert_array_equal(np.sort(tags), np.arange(1, len(seen["points"]) + 1))
+            np.testing.assert_array_equal(points.reshape(-1, 3)[np.argsort(tags)], seen["points"])
+            dimension = seen["cells"].shape[1] - 1
+            names = {gmsh.model.getPhysicalName(*group) for group in gmsh.model.getPhysicalGroups(dimension)}
+            self.assertEqual(names, {"initial", "terminating", "body", "walls"})
+            _, element_tags, nodes = gmsh.model.mesh.getElements(dimension)
+            order = np.argsort(np.concatenate(element_tags))
+            cells = np.concatenate(nodes).reshape(-1, dimension + 1)[order]
+            np.testing.assert_array_equal(cells, seen["cells"] + 1)
+        finally:
+            gmsh.finalize()
+
+
+class Checker(ProgramTest):
+    def test_a_damaged_hull_is_found_out_with_exit_code_1(self):
+        import numpy as np
+        out, _ = self.build(self.case(CIRCLE))
+        path = out / "slab_0000.vtu"
+        data = bytearray(path.read_bytes())
+        seen = vtk_arrays(path)
+        # Swap two vertices of the first cell, in place.
+        first = seen["cells"][0].astype(np.int32).tobytes()
+        at = data.find(first + seen["cells"][1].astype(np.int32).tobytes())
+        width = 4
+        if at < 0:
+            first, width = seen["cells"][0].astype(np.int64).tobytes(), 8
+            at = data.find(first)
+        data[at:at + 2 * width] = data[at + width:at + 2 * width] + data[at:at + width]
+        path.write_bytes(data)
+        result = slabhull("check", path, "--json")
+        self.assertEqual(result.code, 1)
+        self.assertIn("disoriented-facet", json.loads(result.out)["defects"])
+
+
+if __name__ == "__main__":
+    harness.main()

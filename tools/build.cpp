@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commands.h"
+
+#include "slabhull/core/parallel.h"
+#include "slabhull/core/stopwatch.h"
+#include "slabhull/slab/run.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <unistd.h>
+
+namespace slabhull::tools {
+
+namespace {
+
+struct BuildOptions {
+    std::string case_file;
+    std::string directory;
+    int threads = 0;
+    bool quiet = false;
+};
+
+Listener listener_for(const BuildOptions& options) {
+    Listener listener;
+    listener.warning = [](const std::string& text) { fmt::print(stderr, "slabhull: warning: {}\n", text); };
+    if (!options.quiet && ::isatty(STDERR_FILENO) != 0) {
+        listener.progress = [](const std::string& stage, double done) {
+            fmt::print(stderr, "\r\033[K[{:3.0f} %] {}{}", 100 * done, stage, done >= 1 ? "\n" : "");
+            std::fflush(stderr);
+        };
+    }
+    return listener;
+}
+
+int build(const BuildOptions& options) {
+    set_thread_count(options.threads);
+    Case the_case = read_case(options.case_file);
+    if (!options.directory.empty()) {
+        the_case.directory = options.directory;
+    }
+    const Stopwatch watch;
+    const RunResult result = run_case(the_case, listener_for(options));
+    if (!options.quiet) {
+        fmt::print("{}: {} simplices, {} points, {} slab{}, checked, in {:.1f} s\n", the_case.title, result.cells,
+                   result.points, the_case.slabs, the_case.slabs > 1 ? "s" : "", watch.seconds());
+        for (const auto& file : result.files) {
+            fmt::print("  {}\n", file.string());
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
+void add_build(CLI::App& program, int& exit_code) {
+    auto options = std::make_shared<BuildOptions>();
+    CLI::App* command = program.add_subcommand("build", "Run a case: one or more slabs");
+    command->add_option("CASE.toml", options->case_file, "The case file (docs/case-file.md)")->required();
+    command->add_option("--out", options->directory, "Directory for the output, instead of the case's own");
+    command->add_option("--threads", options->threads, "Threads to use; 0 for all cores. The output does not depend on it")
+        ->check(CLI::Range(0, 1024));
+    command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
+    command->footer("Example: slabhull build examples/ellipsoid.toml --out out/ellipsoid");
+    command->callback([options, &exit_code] { exit_code = build(*options); });
+}
+
+} // namespace slabhull::tools

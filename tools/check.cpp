@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commands.h"
+
+#include "slabhull/core/parallel.h"
+#include "slabhull/io/files.h"
+#include "slabhull/slab/hull_files.h"
+#include "slabhull/slab/report.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace slabhull::tools {
+
+namespace {
+
+struct CheckCommand {
+    std::string file;
+    bool json = false;
+    bool no_betti = false;
+    int threads = 0;
+};
+
+constexpr int clean = 0;
+constexpr int defects_found = 1;
+
+std::string counted(std::size_t findings) {
+    return findings == 0 ? "nothing found" : fmt::format("{} finding{}", findings, findings > 1 ? "s" : "");
+}
+
+void print_report(const std::string& file, const HullReport& report) {
+    const auto& counts = report.counts;
+    const auto& cells = report.cells_by_region;
+    const auto& measures = report.measure_by_region;
+    fmt::print("{}: hull of a slab in {}D+t, t = {} to {}\n", file, report.dimension, report.time[0], report.time[1]);
+    fmt::print("  {} vertices, {} edges, {} facets, {} cells (initial {}, side {}, terminating {})\n", counts.vertices,
+               counts.edges, counts.facets, counts.cells, cells[0], cells[1], cells[2]);
+    fmt::print("  Euler characteristic {}, {} component{}", counts.euler, counts.components,
+               counts.components == 1 ? "" : "s");
+    if (!report.betti.empty()) {
+        fmt::print(", Betti numbers ({})", fmt::join(report.betti, ", "));
+    }
+    fmt::print("\n  measure {:.10g} (initial {:.10g}, side {:.10g}, terminating {:.10g})\n", report.measure, measures[0],
+               measures[1], measures[2]);
+    fmt::print("  encloses {:.10g}, |sum of normals| {:.3g}, dihedral angles {:.1f} to {:.1f} degrees\n",
+               report.enclosed, report.closure, report.angles.smallest, report.angles.largest);
+}
+
+void print_report(const std::string& file, const MeshReport& report) {
+    fmt::print("{}: mesh of dimension {}\n", file, report.dimension);
+    fmt::print("  {} vertices, {} cells, {} boundary facets, {} component{}\n", report.vertices, report.cells,
+               report.boundary_facets, report.components, report.components == 1 ? "" : "s");
+    fmt::print("  measure {:.10g}, dihedral angles {:.1f} to {:.1f} degrees\n", report.measure, report.angles.smallest,
+               report.angles.largest);
+}
+
+template<class Report>
+int tell(const CheckCommand& command, const Report& report) {
+    if (command.json) {
+        nlohmann::ordered_json json{{"file", command.file}};
+        json.update(as_json(report));
+        fmt::print("{}\n", json.dump(2));
+    } else {
+        print_report(command.file, report);
+        fmt::print("{}{}\n", findings_as_text(report), counted(report.total()));
+    }
+    return report.clean() ? clean : defects_found;
+}
+
+template<int D>
+int check_soup(const CheckCommand& command, const io::Soup& soup, bool hull) {
+    CheckOptions options;
+    options.betti = !command.no_betti;
+    const io::SimplexBlock& block = soup.simplices[D];
+    if (!soup.point_tags.empty()) {
+        options.vertex_number = [&soup](Index v) { return soup.point_tag(v); };
+    }
+    if (!block.tags.empty()) {
+        options.cell_number = [&block](Index c) { return block.tag(c); };
+    }
+    if (hull) {
+        const HullArrays<D> arrays = hull_of_soup<D>(soup);
+        return tell(command, check_hull<D>(arrays.columns(), options));
+    }
+    const MeshArrays<D> mesh = mesh_of_soup<D>(soup);
+    return tell(command, check_mesh<D>(mesh.points, mesh.cells, options));
+}
+
+int check(const CheckCommand& command) {
+    set_thread_count(command.threads);
+    const io::Soup soup = io::read_mesh(command.file);
+    const MeshKind kind = kind_of(soup);
+    return kind.dimension == 2 ? check_soup<2>(command, soup, kind.hull) : check_soup<3>(command, soup, kind.hull);
+}
+
+} // namespace
+
+void add_check(CLI::App& program, int& exit_code) {
+    auto command = std::make_shared<CheckCommand>();
+    CLI::App* app = program.add_subcommand("check", "Validate a mesh or hull, list what is wrong");
+    app->add_option("FILE", command->file, "A hull or mesh: VTU or MSH")->required();
+    app->add_flag("--json", command->json, "One JSON document on stdout");
+    app->add_flag("--no-betti", command->no_betti, "Leave out the Betti numbers, the slowest part");
+    app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")->check(CLI::Range(0, 1024));
+    app->footer("Exit code 0: nothing found, 1: defects found.\nExample: slabhull check out/ellipsoid/slab_0000.vtu");
+    app->callback([command, &exit_code] { exit_code = check(*command); });
+}
+
+} // namespace slabhull::tools

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commands.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/slab/run.h"
+
+#include <csignal>
+#include <fmt/format.h>
+#include <new>
+
+namespace {
+
+constexpr int wrong_usage = static_cast<int>(slabhull::Failure::usage);
+constexpr int failed = static_cast<int>(slabhull::Failure::geometry);
+
+int complain(const std::string& text, int exit_code) {
+    fmt::print(stderr, "slabhull: {}\n", text);
+    return exit_code;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN); // a file size limit becomes an error message, like a full disk
+    CLI::App program{"Space-time hulls of moving domains: closed, conforming, checked"};
+    program.set_version_flag("--version", slabhull::version());
+    program.require_subcommand(1);
+    int exit_code = 0;
+    slabhull::tools::add_build(program, exit_code);
+    slabhull::tools::add_check(program, exit_code);
+    try {
+        program.parse(argc, argv);
+        return exit_code;
+    } catch (const CLI::Success& wish) { // --help, --version
+        return program.exit(wish);
+    } catch (const CLI::ParseError& error) {
+        program.exit(error);
+        return wrong_usage;
+    } catch (const slabhull::Error& error) {
+        return complain(error.what(), static_cast<int>(error.failure()));
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory; a coarser mesh, fewer layers or more memory would help", failed);
+    } catch (const std::exception& error) {
+        return complain(error.what(), failed);
+    }
+}
