@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "cap_spacing.h"
 #include "constrained_delaunay.h"
 #include "delaunay_refinement.h"
 #include "z_order.h"
 
+#include "slabhull/core/error.h"
 #include "slabhull/geometry/cap_mesher.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -76,14 +81,25 @@ void reorder_cells(CapMesh<2>& mesh, const ZOrder& curve) {
     mesh.neighbors = std::move(sorted.neighbors);
 }
 
+/// A tiny edge and no growth would ask for triangles until the memory is full.
+void require_countable(const SizeField<2>& field) {
+    const double wanted = field.cube_count() * 4 / std::numbers::sqrt3;
+    if (!(wanted < static_cast<double>(no_index))) {
+        throw LimitError{
+            fmt::format("the spacing of the boundary and its growth ask for about {:.2g} triangles; allow "
+                        "a larger growth or remove the shortest edges",
+                        wanted)};
+    }
+}
+
 } // namespace
 
 template<>
 CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
     CapMesh<2> mesh = constrained_delaunay(surface);
-    const std::span<const Point<2>> points{surface.points};
-    const std::vector<double> spacing = boundary_spacing<2>(points, surface.facets);
-    refine_delaunay(mesh, SizeField<2>{points, spacing, options.grading}, options.min_angle);
+    const CapSpacing field{surface, options.grading};
+    require_countable(field.wanted());
+    refine_delaunay(mesh, field, options.min_angle);
 
     const ZOrder curve{surface.points};
     reorder_points(mesh, surface.points.size(), curve);

@@ -38,6 +38,8 @@ using Cdt =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Storage,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
+constexpr double huge_size = 1e45;
+
 std::string words(const Point<2>& p) {
     return fmt::format("({:.6g}, {:.6g})", p[0], p[1]);
 }
@@ -61,6 +63,7 @@ public:
     CapMesh<2> run() {
         check_numbers();
         check_curves();
+        check_sizes();
         insert_points();
         insert_edges();
         mark_sides();
@@ -118,6 +121,23 @@ private:
                                 "curves of consistent direction both are one",
                                 v, words(surface_.points[v]), uses[v][0], uses[v][1]),
                     {vertex_entity(static_cast<Index>(v))}};
+            }
+        }
+    }
+
+    /// The refinement multiplies six lengths; these products must stay within the range of double.
+    void check_sizes() const {
+        for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
+            const Point<2>& a = surface_.points[surface_.facets[f][0]];
+            const Point<2>& b = surface_.points[surface_.facets[f][1]];
+            const double length = std::hypot(a[0] - b[0], a[1] - b[1]);
+            const bool coincident = a == b; // told later, with its vertices
+            if (!coincident && !(length > 1 / huge_size && std::hypot(a[0], a[1]) < huge_size)) {
+                throw GeometryError{
+                    fmt::format("boundary edge {} at {} is {:.3g} long; lengths and coordinates must be "
+                                "between {:g} and {:g}",
+                                f, words(a), length, 1 / huge_size, huge_size),
+                    {edge_entity(static_cast<Index>(f))}};
             }
         }
     }

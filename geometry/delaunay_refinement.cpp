@@ -68,7 +68,7 @@ double aim(double min_angle) {
 
 class Refiner {
 public:
-    Refiner(CapMesh<2>& mesh, const SizeField<2>& field, double min_angle)
+    Refiner(CapMesh<2>& mesh, const CapSpacing& field, double min_angle)
         : mesh_{mesh}, field_{field}, given_{mesh.points.size()}, cavity_{mesh}, star_{mesh},
           least_sine_{std::sin(radians(min_angle))}, aimed_sine_{std::sin(radians(aim(min_angle)))},
           slenderest_{1 / std::tan(radians(angle_reserve * aim(min_angle) / 2))} {}
@@ -347,7 +347,7 @@ private:
     }
 
     CapMesh<2>& mesh_;
-    const SizeField<2>& field_;
+    const CapSpacing& field_;
     std::size_t given_;
     DelaunayCavity cavity_;
     VertexStar star_;
@@ -367,7 +367,7 @@ private:
 
 } // namespace
 
-void refine_delaunay(CapMesh<2>& mesh, const SizeField<2>& field, double min_angle) {
+void refine_delaunay(CapMesh<2>& mesh, const CapSpacing& field, double min_angle) {
     Refiner{mesh, field, min_angle}.run();
 }
 

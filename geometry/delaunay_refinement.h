@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "cap_spacing.h"
+
 #include "slabhull/geometry/cap_mesher.h"
 
 namespace slabhull {
@@ -16,6 +18,6 @@ namespace slabhull {
 /// neighbor) are all the constraints. The result is constrained Delaunay again; new points come after the
 /// present ones. Deterministic. Ends on any input: a new edge is never shorter than the shortest present one
 /// or 0.3 times the least spacing.
-void refine_delaunay(CapMesh<2>& mesh, const SizeField<2>& field, double min_angle);
+void refine_delaunay(CapMesh<2>& mesh, const CapSpacing& field, double min_angle);
 
 } // namespace slabhull

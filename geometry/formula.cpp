@@ -12,7 +12,9 @@
 
 #include <muParser.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <numbers>
 #include <utility>

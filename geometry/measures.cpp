@@ -71,7 +71,8 @@ private:
     double lost_ = 0;
 };
 
-/// The extreme cosines of dihedral angles, kept as cos |cos|: it grows with the cosine and needs no square root.
+/// The extreme cosines of dihedral angles, kept as cos |cos|: it grows with the cosine and needs no square
+/// root.
 struct CosineRange {
     double smallest = 1;
     double largest = -1;
@@ -94,8 +95,8 @@ private:
     }
 };
 
-/// Gram matrix of the gradients of the barycentric coordinates, but for a positive factor: the adjugate of the Gram
-/// matrix of the edges from corner 0, and the row that makes all rows sum to zero.
+/// Gram matrix of the gradients of the barycentric coordinates, but for a positive factor: the adjugate of
+/// the Gram matrix of the edges from corner 0, and the row that makes all rows sum to zero.
 template<int D>
 using GradientGram = std::array<std::array<double, D + 1>, D + 1>;
 
@@ -249,7 +250,8 @@ AngleRange dihedral_angles(const std::array<Point<N>, D + 1>& corners) {
 }
 
 template<int D>
-std::vector<Measures<D>> measure_groups(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+std::vector<Measures<D>> measure_groups(std::span<const Point<D + 1>> points,
+                                        std::span<const Simplex<D>> cells,
                                         std::span<const std::uint8_t> group, std::size_t group_count) {
     const Point<D + 1> origin = points.empty() ? Point<D + 1>{} : points.front();
     const auto sums = sum_by_pieces(cells.size(), std::vector<HullSums<D>>(group_count),

@@ -12,8 +12,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace slabhull {

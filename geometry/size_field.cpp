@@ -75,11 +75,8 @@ private:
         field_.boxes_[box].children = first;
         field_.boxes_.resize(first + fan, Box{});
         for (std::size_t child = 0; child < fan; ++child) {
-            Point<D> middle = centre;
-            for (std::size_t k = 0; k < D; ++k) {
-                middle[k] += ((child >> k) & 1) != 0 ? half / 2 : -half / 2;
-            }
-            fill(first + static_cast<Index>(child), middle, half / 2, kept, end, depth + 1);
+            fill(first + static_cast<Index>(child), child_centre(centre, half, child), half / 2, kept, end,
+                 depth + 1);
         }
     }
 
@@ -176,6 +173,37 @@ double SizeField<D>::operator()(const Point<D>& x) const {
     }
     const Source& source = sources_[ruler];
     return std::min(grading_.largest, source.spacing + grading_.growth * distance<D>(source.at, x));
+}
+
+template<int D>
+Point<D> SizeField<D>::child_centre(const Point<D>& centre, double half, std::size_t child) {
+    Point<D> middle = centre;
+    for (std::size_t k = 0; k < D; ++k) {
+        middle[k] += ((child >> k) & 1) != 0 ? half / 2 : -half / 2;
+    }
+    return middle;
+}
+
+template<int D>
+double SizeField<D>::cube_count() const {
+    Point<D> centre = corner_;
+    for (double& x : centre) {
+        x += edge_ / 2;
+    }
+    return cube_count(0, centre, edge_ / 2);
+}
+
+template<int D>
+double SizeField<D>::cube_count(Index box, const Point<D>& centre, double half) const {
+    if (boxes_[box].children == no_index) {
+        return std::pow(2 * half / (*this)(centre), D);
+    }
+    double sum = 0;
+    for (std::size_t child = 0; child < fan; ++child) {
+        sum += cube_count(boxes_[box].children + static_cast<Index>(child), child_centre(centre, half, child),
+                          half / 2);
+    }
+    return sum;
 }
 
 template<int D>

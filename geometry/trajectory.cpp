@@ -24,7 +24,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace slabhull {

@@ -12,6 +12,8 @@ namespace slabhull {
 
 namespace {
 
+constexpr int most_layers = 1'000'000;
+
 /// Turns the tables of a case file into a Case. Each method reads one table.
 class CaseReader {
 public:
@@ -120,11 +122,14 @@ private:
             time.fail("spacing", "one of \"layers\" and \"spacing\"");
         }
         if (time.has("layers")) {
-            case_.layers = time.integer("layers", 1, 1'000'000);
+            case_.layers = time.integer("layers", 1, most_layers);
             case_.spacing.reset();
         } else if (time.has("spacing")) {
             case_.spacing = time.positive("spacing");
             case_.layers.reset();
+            if ((case_.end - case_.start) / case_.slabs > most_layers * *case_.spacing) {
+                time.fail("spacing", fmt::format("a spacing that makes at most {} layers in a slab", most_layers));
+            }
         }
         time.require_all_known();
     }
@@ -281,11 +286,21 @@ Case read_case(const std::filesystem::path& path) {
     return CaseReader{KeyTable::parse_file(path), path.parent_path()}.run();
 }
 
-int Case::layers_in(double duration) const {
-    if (spacing) {
-        return std::max(1, static_cast<int>(std::ceil(duration / *spacing - 1e-9)));
+double Case::slab_begin(int slab) const {
+    return slab == slabs ? end : start + (end - start) * slab / static_cast<double>(slabs);
+}
+
+std::vector<double> Case::level_times(int slab) const {
+    const double begin = slab_begin(slab);
+    const double duration = slab_begin(slab + 1) - begin;
+    // A spacing that divides the duration up to rounding does so exactly.
+    const double wanted = spacing ? std::max(1.0, std::ceil(duration / *spacing - 1e-9)) : layers.value_or(1);
+    std::vector<double> times;
+    for (double layer = 0; layer < wanted; ++layer) {
+        times.push_back(begin + duration * layer / wanted);
     }
-    return layers.value_or(1);
+    times.push_back(slab_begin(slab + 1));
+    return times;
 }
 
 } // namespace slabhull

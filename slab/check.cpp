@@ -27,7 +27,8 @@ public:
         report_.dimension = D;
         check_column_lengths(view_.hull, findings_);
         if (!check_indices<D>(view_.cells(), view_.points().size(), findings_)) {
-            findings_.skip("all but the indices", "there are no cells, or cells name vertices that do not exist");
+            findings_.skip("all but the indices",
+                           "there are no cells, or cells name vertices that do not exist");
             return std::move(report_);
         }
         if (view_.hull.track_id.given()) {
@@ -47,8 +48,8 @@ public:
 private:
     void examine_connectivity() {
         view_.adjacency = build_adjacency<D>(view_.cells(), view_.points().size());
-        const ManifoldReport manifold = examine_manifold<D>(view_.cells(), view_.points().size(), view_.adjacency,
-                                                            {options_.most_findings});
+        const ManifoldReport manifold = examine_manifold<D>(view_.cells(), view_.points().size(),
+                                                            view_.adjacency, {options_.most_findings});
         translate(manifold, {}, findings_);
         report_.counts = manifold.counts;
         manifold_ = manifold.clean();
@@ -120,12 +121,14 @@ private:
             return;
         }
         if (!(report_.closure <= closure_tolerance * report_.measure)) {
-            findings_.other(Defect::not_closed, {},
-                            fmt::format("the normals sum to a vector of length {:.3g}; the hull's measure is {:.6g}",
-                                        report_.closure, report_.measure));
+            findings_.other(
+                Defect::not_closed, {},
+                fmt::format("the normals sum to a vector of length {:.3g}; the hull's measure is {:.6g}",
+                            report_.closure, report_.measure));
         } else if (!(report_.enclosed > 0)) {
-            findings_.other(Defect::inward_orientation, {},
-                            fmt::format("the hull encloses {:.6g}: its simplices face inwards", report_.enclosed));
+            findings_.other(
+                Defect::inward_orientation, {},
+                fmt::format("the hull encloses {:.6g}: its simplices face inwards", report_.enclosed));
         }
     }
 

@@ -99,7 +99,8 @@ std::size_t check_layers(const HullView<D>& view, Findings& findings) {
     std::int64_t layers = 0;
     double reached = view.time[0];
     for (auto run = side.begin(); run != side.end();) {
-        const auto end = std::find_if(run, side.end(), [&](const LayerCell& c) { return c.layer != run->layer; });
+        const auto end =
+            std::find_if(run, side.end(), [&](const LayerCell& c) { return c.layer != run->layer; });
         const std::array<double, 2> times = check_layer({run, end}, findings);
         if (run->layer != layers) {
             report_gap(layers, "no cell is in it", findings);
@@ -127,15 +128,16 @@ void check_vertex_ids(const HullView<D>& view, Findings& findings) {
             findings.vertex(Defect::negative_vertex_id, order[v], fmt::format("its id is {}", ids[v]));
         }
     }
-    std::sort(order.begin(), order.end(),
-              [&](Index a, Index b) { return std::pair{ids[a], a} < std::pair{ids[b], b}; });
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        return std::pair{ids[a], a} < std::pair{ids[b], b};
+    });
     for (std::size_t k = 1; k < order.size(); ++k) {
         if (ids[order[k]] == ids[order[k - 1]] && ids[order[k]] >= 0) {
             const std::array<Index, 2> both{order[k - 1], order[k]};
             const std::vector<Entity> names = findings.vertex_entities(both);
             findings.other(Defect::duplicate_vertex_id, names,
-                           fmt::format("vertices {} and {}: both have the id {}", names[0].number, names[1].number,
-                                       ids[order[k]]));
+                           fmt::format("vertices {} and {}: both have the id {}", names[0].number,
+                                       names[1].number, ids[order[k]]));
         }
     }
 }
@@ -149,8 +151,9 @@ void check_neighbors(const HullView<D>& view, Findings& findings) {
                 continue; // a facet without a neighbour is reported as open or overfull
             }
             const std::array<Index, 2> both{static_cast<Index>(c), actual};
-            findings.cells(Defect::wrong_neighbor, both,
-                           fmt::format("across facet {} the array says {}, the facet says another", i, claimed[i]));
+            findings.cells(
+                Defect::wrong_neighbor, both,
+                fmt::format("across facet {} the array says {}, the facet says another", i, claimed[i]));
         }
     });
 }

@@ -12,14 +12,16 @@ namespace {
 template<int D>
 class MeshCheck {
 public:
-    MeshCheck(std::span<const Point<D>> points, std::span<const Simplex<D>> cells, const CheckOptions& options)
+    MeshCheck(std::span<const Point<D>> points, std::span<const Simplex<D>> cells,
+              const CheckOptions& options)
         : points_{points}, cells_{cells}, options_{options}, findings_{report_, options_} {}
 
     MeshReport run() {
         report_.dimension = D;
         report_.cells = cells_.size();
         if (!check_indices<D>(cells_, points_.size(), findings_)) {
-            findings_.skip("all but the indices", "there are no cells, or cells name vertices that do not exist");
+            findings_.skip("all but the indices",
+                           "there are no cells, or cells name vertices that do not exist");
             return std::move(report_);
         }
         examine_connectivity();
@@ -79,9 +81,8 @@ private:
         check_coincident<D>(points_, findings_);
         check_degenerate<D, D>(points_, cells_, findings_);
         find_signs();
-        report_.orientation = std::count(sign_.begin(), sign_.end(), 1) >= std::count(sign_.begin(), sign_.end(), -1)
-                                  ? 1
-                                  : -1;
+        report_.orientation =
+            std::count(sign_.begin(), sign_.end(), 1) >= std::count(sign_.begin(), sign_.end(), -1) ? 1 : -1;
         const SolidMeasures measures = measure_solid<D>(points_, cells_);
         report_.measure = report_.orientation * measures.measure;
         report_.angles = measures.angles;
@@ -102,7 +103,8 @@ private:
     }
 
     void report_inverted() {
-        for (const Index c : select(cells_.size(), [&](std::size_t k) { return sign_[k] == -report_.orientation; })) {
+        for (const Index c :
+             select(cells_.size(), [&](std::size_t k) { return sign_[k] == -report_.orientation; })) {
             findings_.cell(Defect::inverted_cell, c, "its orientation is not that of most cells");
         }
     }
@@ -111,11 +113,18 @@ private:
     void report_folded() {
         for (const FacetDefect<D>& defect : adjacency_.defects) {
             if (defect.kind == FacetDefect<D>::Kind::disoriented &&
-                sign_[defect.cells[0]] == report_.orientation && sign_[defect.cells[1]] == report_.orientation) {
+                lie_folded(defect.cells[0], defect.cells[1])) {
                 findings_.vertices(Defect::folded_facet, defect.facet, defect.cells,
                                    "its cells lie on the same side of it");
             }
         }
+    }
+
+    /// Not when one of the cells is inverted or degenerate, or they are duplicates: those are found as such.
+    bool lie_folded(Index a, Index b) const {
+        const Simplex<D>& cell = cells_[a];
+        return sign_[a] == report_.orientation && sign_[b] == report_.orientation &&
+               !std::is_permutation(cell.begin(), cell.end(), cells_[b].begin());
     }
 
     std::span<const Point<D>> points_;
@@ -135,7 +144,9 @@ MeshReport check_mesh(std::span<const Point<D>> points, std::span<const Simplex<
     return MeshCheck<D>{points, cells, options}.run();
 }
 
-template MeshReport check_mesh<2>(std::span<const Point<2>>, std::span<const Simplex<2>>, const CheckOptions&);
-template MeshReport check_mesh<3>(std::span<const Point<3>>, std::span<const Simplex<3>>, const CheckOptions&);
+template MeshReport check_mesh<2>(std::span<const Point<2>>, std::span<const Simplex<2>>,
+                                  const CheckOptions&);
+template MeshReport check_mesh<3>(std::span<const Point<3>>, std::span<const Simplex<3>>,
+                                  const CheckOptions&);
 
 } // namespace slabhull

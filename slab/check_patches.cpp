@@ -43,8 +43,8 @@ struct Vote {
     friend auto operator<=>(const Vote&, const Vote&) = default;
 };
 
-/// Votes of the cells that have all tracks of a facet, by facet; and of the other side cells.
-/// Cells may be in no position to vote: those of a side that is not made of prisms.
+/// Votes of the cells that have all tracks of a facet, by facet; and of the other side cells. Cells of a side
+/// that is not made of prisms may have no vote.
 template<int D>
 struct Votes {
     std::vector<Vote<D>> full;
@@ -85,8 +85,8 @@ void report_disunity(std::span<const Vote<D>> column, Findings& findings) {
         tracks += fmt::format("{}{}", tracks.empty() ? "" : ", ", track);
     }
     std::vector<Entity> entities = findings.cell_entities(cells);
-    const std::string text =
-        fmt::format("the side over the boundary facet of tracks {} has patches {} and {}", tracks, first, last);
+    const std::string text = fmt::format(
+        "the side over the boundary facet of tracks {} has patches {} and {}", tracks, first, last);
     entities.push_back({"patch", first, {}});
     entities.push_back({"patch", last, {}});
     findings.other(Defect::patch_mismatch, std::move(entities), text);
@@ -96,7 +96,11 @@ void report_disunity(std::span<const Vote<D>> column, Findings& findings) {
 template<int D>
 std::vector<std::pair<TrackSet<D>, PatchNumber>> patches_of_parts(const std::vector<Vote<D>>& full) {
     std::vector<std::pair<TrackSet<D>, PatchNumber>> parts;
-    for (const Vote<D>& vote : full) {
+    for (std::size_t v = 0; v < full.size(); ++v) {
+        const Vote<D>& vote = full[v];
+        if (v > 0 && vote.tracks == full[v - 1].tracks && vote.patch == full[v - 1].patch) {
+            continue;
+        }
         for (unsigned chosen = 1; chosen + 1 < 1u << D; ++chosen) {
             TrackSet<D> part;
             part.fill(no_track);
@@ -149,8 +153,8 @@ template<int D>
 void check_patch_columns(const HullView<D>& view, Findings& findings) {
     const Votes<D> votes = collect_votes(view);
     for (auto run = votes.full.begin(); run != votes.full.end();) {
-        const auto end =
-            std::find_if(run, votes.full.end(), [&](const Vote<D>& vote) { return vote.tracks != run->tracks; });
+        const auto end = std::find_if(run, votes.full.end(),
+                                      [&](const Vote<D>& vote) { return vote.tracks != run->tracks; });
         report_disunity<D>({run, end}, findings);
         run = end;
     }

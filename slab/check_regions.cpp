@@ -13,7 +13,8 @@ constexpr std::array<const char*, 3> region_names{"initial cap", "side", "termin
 
 template<int D>
 std::array<double, 2> time_range(std::span<const Point<D + 1>> points) {
-    std::array<double, 2> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    std::array<double, 2> range{std::numeric_limits<double>::infinity(),
+                                -std::numeric_limits<double>::infinity()};
     for (const Point<D + 1>& point : points) {
         range[0] = std::min(range[0], point[D]);
         range[1] = std::max(range[1], point[D]);
@@ -38,16 +39,17 @@ std::array<double, 2> slab_times(const HullView<D>& view, Findings& findings) {
     const std::array<double, 2> claimed = *view.hull.time;
     if (!any_cell_at(view, claimed[0]) || !any_cell_at(view, claimed[1])) {
         findings.other(Defect::wrong_slab_time, {},
-                       fmt::format("the slab is said to last from {} to {}, its vertices from {} to {}", claimed[0],
-                                   claimed[1], seen[0], seen[1]));
+                       fmt::format("the slab is said to last from {} to {}, its vertices from {} to {}",
+                                   claimed[0], claimed[1], seen[0], seen[1]));
         return seen;
     }
     for (const Index v : select(view.points().size(), [&](std::size_t k) {
              const double t = view.points()[k][D];
              return t < claimed[0] || t > claimed[1];
          })) {
-        findings.vertex(Defect::time_outside_slab, v,
-                        fmt::format("t = {} is outside the slab's [{}, {}]", view.time_of(v), claimed[0], claimed[1]));
+        findings.vertex(
+            Defect::time_outside_slab, v,
+            fmt::format("t = {} is outside the slab's [{}, {}]", view.time_of(v), claimed[0], claimed[1]));
     }
     return claimed;
 }
@@ -58,7 +60,8 @@ void find_regions(HullView<D>& view) {
     parallel_for(view.cells().size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const auto [first, last] = view.span_of(c);
-            const Region region = last == view.time[0]    ? Region::initial
+            const Region region = first != last           ? Region::intermediate
+                                  : first == view.time[0] ? Region::initial
                                   : first == view.time[1] ? Region::terminating
                                                           : Region::intermediate;
             view.region[c] = static_cast<std::uint8_t>(region);
@@ -75,14 +78,15 @@ void compare_regions(const HullView<D>& view, Findings& findings) {
         const bool cap_claimed = *claimed == 0 || *claimed == 2;
         if (cap_claimed && !view.in_cap(c)) {
             const auto [first, last] = view.span_of(c);
-            findings.cell(Defect::cap_not_flat, static_cast<Index>(c),
-                          fmt::format("said to be in the {}, which is at t = {}, but its vertices have t = {} to {}",
-                                      region_names[static_cast<std::size_t>(*claimed)],
-                                      view.time[*claimed == 0 ? 0 : 1], first, last));
+            findings.cell(
+                Defect::cap_not_flat, static_cast<Index>(c),
+                fmt::format("said to be in the {}, which is at t = {}, but its vertices have t = {} to {}",
+                            region_names[static_cast<std::size_t>(*claimed)],
+                            view.time[*claimed == 0 ? 0 : 1], first, last));
         } else {
             findings.cell(Defect::wrong_region, static_cast<Index>(c),
-                          fmt::format("said to be in region {}, but its vertices' times put it in the {}", *claimed,
-                                      region_names[view.region[c]]));
+                          fmt::format("said to be in region {}, but its vertices' times put it in the {}",
+                                      *claimed, region_names[view.region[c]]));
         }
     });
 }
@@ -161,15 +165,17 @@ void check_cap_cells(const HullView<D>& view, double sign, Findings& findings) {
 
 template<int D>
 void check_euler(const HullView<D>& view, const ManifoldCounts& counts, Findings& findings) {
-    // D = 3: a closed 3-manifold has 0, and that of a cap is half that of its boundary, which is compared anyway.
+    // D = 3: a closed 3-manifold has 0, and that of a cap is half that of its boundary, which is compared
+    // anyway.
     if constexpr (D == 2) {
         const std::int64_t initial = euler_of_cap(view, Region::initial);
         const std::int64_t terminating = euler_of_cap(view, Region::terminating);
         if (initial != terminating || counts.euler != 2 * terminating) {
-            findings.other(Defect::euler_mismatch, {},
-                           fmt::format("Euler characteristic {} of the initial cap, {} of the terminating cap, {} of "
-                                       "the hull, which should be twice a cap's",
-                                       initial, terminating, counts.euler));
+            findings.other(
+                Defect::euler_mismatch, {},
+                fmt::format("Euler characteristic {} of the initial cap, {} of the terminating cap, {} of "
+                            "the hull, which should be twice a cap's",
+                            initial, terminating, counts.euler));
         }
     }
 }

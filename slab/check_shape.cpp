@@ -10,7 +10,8 @@ namespace slabhull {
 
 namespace {
 
-/// A cell whose measure is below this times its longest edge to the power D has no direction that can be relied on.
+/// A cell whose measure is below this times its longest edge to the power D has no direction that can be
+/// relied on.
 constexpr double degenerate = 1e-14;
 
 template<std::size_t N>
@@ -139,17 +140,20 @@ bool is_degenerate(const std::array<Point<N>, D + 1>& corners) {
 }
 
 template<int D, int N>
-void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells, Findings& findings) {
+void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,
+                      Findings& findings) {
     const auto bad = select(cells.size(), [&](std::size_t c) {
         return is_degenerate<D, N>(corners_of<D, N>(cells[c], points)) && !repeats_vertex<D>(cells[c]);
     });
     for (const Index c : bad) {
-        findings.cell(Defect::degenerate_cell, c,
-                      fmt::format("its measure is {:.3g}", measure_of<D, N>(corners_of<D, N>(cells[c], points))));
+        findings.cell(
+            Defect::degenerate_cell, c,
+            fmt::format("its measure is {:.3g}", measure_of<D, N>(corners_of<D, N>(cells[c], points))));
     }
 }
 
-void translate(const ManifoldReport& report, std::initializer_list<ManifoldDefect> except, Findings& findings) {
+void translate(const ManifoldReport& report, std::initializer_list<ManifoldDefect> except,
+               Findings& findings) {
     const auto wanted = [&](ManifoldDefect what) {
         return std::find(except.begin(), except.end(), what) == except.end();
     };

@@ -25,7 +25,8 @@ template<int D, int N>
 bool is_degenerate(const std::array<Point<N>, D + 1>& corners);
 
 template<int D, int N>
-void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells, Findings& findings);
+void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,
+                      Findings& findings);
 
 /// Whether a cell names a vertex twice.
 template<int D>
@@ -41,6 +42,7 @@ bool repeats_vertex(const Simplex<D>& cell) {
 }
 
 /// Hands the findings of examine_manifold() on, those it did not keep as numbers, but for some kinds.
-void translate(const ManifoldReport& report, std::initializer_list<ManifoldDefect> except, Findings& findings);
+void translate(const ManifoldReport& report, std::initializer_list<ManifoldDefect> except,
+               Findings& findings);
 
 } // namespace slabhull

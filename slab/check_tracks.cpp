@@ -52,8 +52,9 @@ void check_track(std::span<const TrackPoint> track, const std::array<double, 2>&
     if (track.front().time != slab[0] || track.back().time != slab[1]) {
         const std::array<Index, 2> ends{track.front().vertex, track.back().vertex};
         findings.other(Defect::track_incomplete, track_entities(track.front().track, ends, findings),
-                       fmt::format("track {}: leads from t = {} to {}, not from {} to {}", track.front().track,
-                                   track.front().time, track.back().time, slab[0], slab[1]));
+                       fmt::format("track {}: leads from t = {} to {}, not from {} to {}",
+                                   track.front().track, track.front().time, track.back().time, slab[0],
+                                   slab[1]));
     }
 }
 
@@ -62,7 +63,10 @@ enum : std::uint8_t { in_a_cap = 1, on_its_boundary = 2 };
 
 template<int D>
 BoundaryFacet<D> boundary_facet(const HullView<D>& view, Index cell, std::size_t i) {
-    BoundaryFacet<D> facet{{}, false, outward_facet<D>(view.cells()[cell], static_cast<int>(i)), cell,
+    BoundaryFacet<D> facet{{},
+                           false,
+                           outward_facet<D>(view.cells()[cell], static_cast<int>(i)),
+                           cell,
                            view.adjacency.neighbors[cell][i]};
     if (view.region_of(cell) == Region::initial) {
         std::swap(facet.vertices[0], facet.vertices[1]); // an initial cell is negative in space
@@ -92,7 +96,8 @@ void check_cap_vertices(const HullView<D>& view, const std::vector<std::uint8_t>
     for (std::size_t v = 0; v < use.size(); ++v) {
         const auto vertex = static_cast<Index>(v);
         if ((use[v] & on_its_boundary) != 0 && view.track[v] < 0) {
-            findings.vertex(Defect::untracked_boundary, vertex, "a cap meets the side there, but it has no track");
+            findings.vertex(Defect::untracked_boundary, vertex,
+                            "a cap meets the side there, but it has no track");
         } else if (use[v] == in_a_cap && view.track[v] >= 0) {
             findings.vertex(Defect::stray_track, vertex,
                             fmt::format("inside a cap, but on track {}", view.track[v]));
@@ -106,7 +111,8 @@ template<int D>
 void check_tracks(const HullView<D>& view, Findings& findings) {
     const std::vector<TrackPoint> points = sorted_track_points(view);
     for (auto run = points.begin(); run != points.end();) {
-        const auto end = std::find_if(run, points.end(), [&](const TrackPoint& p) { return p.track != run->track; });
+        const auto end =
+            std::find_if(run, points.end(), [&](const TrackPoint& p) { return p.track != run->track; });
         check_track({run, end}, view.time, findings);
         run = end;
     }
@@ -145,13 +151,15 @@ void check_boundary_image(const BoundaryFacets<D>& boundary, Findings& findings)
     auto image = boundary[1].begin();
     while (first != boundary[0].end() || image != boundary[1].end()) {
         if (image == boundary[1].end() || (first != boundary[0].end() && first->tracks < image->tracks)) {
-            report(Defect::boundary_facet_lost, *first++, "the terminating cap has no facet on its tracks", findings);
+            report(Defect::boundary_facet_lost, *first++, "the terminating cap has no facet on its tracks",
+                   findings);
         } else if (first == boundary[0].end() || image->tracks < first->tracks) {
-            report(Defect::boundary_facet_added, *image++, "the initial cap has no facet on its tracks", findings);
+            report(Defect::boundary_facet_added, *image++, "the initial cap has no facet on its tracks",
+                   findings);
         } else {
             if (first->odd != image->odd) {
-                report(Defect::boundary_facet_reversed, *image, "lies the other way round than in the initial cap",
-                       findings);
+                report(Defect::boundary_facet_reversed, *image,
+                       "lies the other way round than in the initial cap", findings);
             }
             ++first;
             ++image;

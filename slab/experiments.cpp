@@ -10,16 +10,29 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <optional>
 #include <span>
 
 namespace slabhull {
 
 namespace {
 
+struct Spacings {
+    double body;
+    double box;
+    double time;
+
+    Spacings divided_by(double refinement) const {
+        return {body / refinement, box / refinement, time / refinement};
+    }
+};
+
 struct Experiment {
     const char* name;
     const char* title;
     int dimension;
+    Spacings spacings; ///< at refinement 1
+    double growth;     ///< of the spacing inside the caps, which ends at that of the box
     std::span<const double> refinement; ///< by level
 };
 
@@ -31,22 +44,18 @@ constexpr std::array ellipsoid_levels{1.0, 1.4, 2.0};
 constexpr std::array tandem_levels{1.0, 1.4, 2.0};
 
 constexpr std::array<Experiment, 6> experiments{{
-    {"circle", "Circle in a square, at rest", 2, circle_levels},
-    {"expanding-circle", "Expanding circle in a square", 2, expanding_circle_levels},
-    {"sphere", "Sphere in a cube, at rest", 3, sphere_levels},
-    {"expanding-sphere", "Expanding sphere in a cube", 3, expanding_sphere_levels},
-    {"ellipsoid", "Ellipsoid turning in a cube", 3, ellipsoid_levels},
-    {"tandem-ellipsoids", "Two ellipsoids turning against each other in a cube", 3, tandem_levels},
+    {"circle", "Circle in a square, at rest", 2, {0.15, 0.4, 0.3}, 0.2, circle_levels},
+    {"expanding-circle", "Expanding circle in a square", 2, {0.15, 0.4, 0.3}, 0.2, expanding_circle_levels},
+    {"sphere", "Sphere in a cube, at rest", 3, {0.2, 0.7, 0.4}, 0.2, sphere_levels},
+    {"expanding-sphere", "Expanding sphere in a cube", 3, {0.2, 0.7, 0.4}, 0.2, expanding_sphere_levels},
+    {"ellipsoid", "Ellipsoid turning in a cube", 3, {0.25, 1.0, 0.5}, 0.15, ellipsoid_levels},
+    {"tandem-ellipsoids", "Two ellipsoids turning against each other in a cube", 3, {0.25, 1.0, 0.5}, 0.15, tandem_levels},
 }};
 
-const Experiment& find_experiment(const std::string& name, int level) {
+const Experiment& find_experiment(const std::string& name) {
     std::string known;
     for (const Experiment& experiment : experiments) {
         if (experiment.name == name) {
-            const auto levels = static_cast<int>(experiment.refinement.size());
-            if (level < 1 || level > levels) {
-                throw UsageError(fmt::format("experiment \"{}\" has levels 1 to {}, not {}", name, levels, level));
-            }
             return experiment;
         }
         known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", experiment.name);
@@ -54,18 +63,11 @@ const Experiment& find_experiment(const std::string& name, int level) {
     throw UsageError(fmt::format("no experiment \"{}\"; there are {}", name, known));
 }
 
-/// Spacings at refinement 1; each is divided by the refinement.
-struct Spacings {
-    double body;
-    double box;
-    double time;
-};
-
 constexpr double quarter_turn = std::numbers::pi / 2;
 
 /// Puts an ellipsoid with these semi-axes into the case, its motion about its own centre, and its projection.
 void add_body(Case& the_case, InitialBodies& bodies, const std::string& patch, const Numbers& centre,
-              const Numbers& semi_axes, double spacing, const MotionSpec* motion) {
+              const Numbers& semi_axes, double spacing, std::optional<MotionSpec> motion) {
     const auto divisions = [&] {
         if (the_case.dimension == 2) {
             return ellipsoid_divisions<2>({semi_axes[0], semi_axes[1]}, spacing);
@@ -73,10 +75,9 @@ void add_body(Case& the_case, InitialBodies& bodies, const std::string& patch, c
         return ellipsoid_divisions<3>({semi_axes[0], semi_axes[1], semi_axes[2]}, spacing);
     };
     bodies.ellipsoids.push_back({centre, semi_axes, divisions(), patch});
-    if (motion != nullptr) {
-        MotionSpec about_centre = *motion;
-        about_centre.centre = centre;
-        the_case.motions[patch] = about_centre;
+    if (motion) {
+        motion->centre = centre;
+        the_case.motions[patch] = *motion;
     }
     ProjectionSpec projection;
     projection.kind = ProjectionSpec::Kind::ellipsoid;
@@ -106,40 +107,46 @@ BoxSpec centred_box(int dimension, double edge, double size) {
 
 } // namespace
 
-Case experiment_case(const std::string& name, int level) {
-    const Experiment& experiment = find_experiment(name, level);
-    const double refinement = experiment.refinement[static_cast<std::size_t>(level - 1)];
+Case experiment_at(const std::string& name, double refinement) {
+    const Experiment& experiment = find_experiment(name);
+    const Spacings at = experiment.spacings.divided_by(refinement);
     Case result;
-    result.title = fmt::format("{}, level {}", experiment.title, level);
+    result.title = experiment.title;
     result.dimension = experiment.dimension;
     result.experiment = name;
-    result.level = level;
     result.split = result.dimension == 3 ? Split::C : Split::centre;
+    result.layers = std::max(1, static_cast<int>(std::lround(1 / at.time)));
+    result.cap_size = at.box;
+    result.cap_growth = experiment.growth;
 
     InitialBodies bodies;
-    const bool expands = name.starts_with("expanding");
-    const MotionSpec expansion = expanding(0.25);
-    const MotionSpec left_turn = turning(quarter_turn);
-    const MotionSpec right_turn = turning(-quarter_turn);
-    Spacings at{0.1, 0.5, 0.1};
     if (name == "ellipsoid") {
-        at = {0.4, 0.8, 0.4};
-        bodies.outer = centred_box(3, 16, at.box / refinement);
-        add_body(result, bodies, "body", {0, 0, 0}, {1, 3, 2}, at.body / refinement, &left_turn);
+        bodies.outer = centred_box(3, 16, at.box);
+        add_body(result, bodies, "body", {0, 0, 0}, {1, 3, 2}, at.body, turning(quarter_turn));
     } else if (name == "tandem-ellipsoids") {
-        at = {0.4, 0.8, 0.4};
-        bodies.outer = BoxSpec{{-7.5, -10, -10}, {12.5, 10, 10}, at.box / refinement, "walls"};
-        add_body(result, bodies, "first", {0, 0, 0}, {1, 3, 2}, at.body / refinement, &left_turn);
-        add_body(result, bodies, "second", {5, 0, 0}, {3, 1, 2}, at.body / refinement, &right_turn);
+        bodies.outer = BoxSpec{{-7.5, -10, -10}, {12.5, 10, 10}, at.box, "walls"};
+        add_body(result, bodies, "first", {0, 0, 0}, {1, 3, 2}, at.body, turning(quarter_turn));
+        add_body(result, bodies, "second", {5, 0, 0}, {3, 1, 2}, at.body, turning(-quarter_turn));
     } else {
         const auto dimension = static_cast<std::size_t>(result.dimension);
-        at = result.dimension == 3 ? Spacings{0.25, 0.6, 0.3} : Spacings{0.15, 0.4, 0.3};
-        bodies.outer = centred_box(result.dimension, 10, at.box / refinement);
-        add_body(result, bodies, "body", Numbers(dimension, 0.0), Numbers(dimension, 1.0), at.body / refinement,
-                 expands ? &expansion : nullptr);
+        bodies.outer = centred_box(result.dimension, 10, at.box);
+        const bool expands = name.starts_with("expanding");
+        add_body(result, bodies, "body", Numbers(dimension, 0.0), Numbers(dimension, 1.0), at.body,
+                 expands ? std::optional{expanding(0.25)} : std::nullopt);
     }
     result.initial = std::move(bodies);
-    result.layers = std::max(1, static_cast<int>(std::lround(refinement / at.time)));
+    return result;
+}
+
+Case experiment_case(const std::string& name, int level) {
+    const Experiment& experiment = find_experiment(name);
+    const auto levels = static_cast<int>(experiment.refinement.size());
+    if (level < 1 || level > levels) {
+        throw UsageError(fmt::format("experiment \"{}\" has levels 1 to {}, not {}", name, levels, level));
+    }
+    Case result = experiment_at(name, experiment.refinement[static_cast<std::size_t>(level - 1)]);
+    result.title += fmt::format(", level {}", level);
+    result.level = level;
     return result;
 }
 

@@ -77,9 +77,13 @@ std::string simplex_name(std::span<const Entity> vertices) {
 
 } // namespace
 
-std::string_view defect_name(Defect what) { return names[static_cast<std::size_t>(what)]; }
+std::string_view defect_name(Defect what) {
+    return names[static_cast<std::size_t>(what)];
+}
 
-std::size_t CheckResult::total() const { return std::accumulate(found.begin(), found.end(), std::size_t{0}); }
+std::size_t CheckResult::total() const {
+    return std::accumulate(found.begin(), found.end(), std::size_t{0});
+}
 
 bool Findings::keep(Defect what) {
     return result_.found[static_cast<std::size_t>(what)]++ < options_.most_findings;

@@ -19,7 +19,9 @@ class Findings {
 public:
     Findings(CheckResult& result, const CheckOptions& options) : result_{result}, options_{options} {}
 
-    void vertex(Defect what, Index vertex, const std::string& detail) { vertices(what, {&vertex, 1}, {}, detail); }
+    void vertex(Defect what, Index vertex, const std::string& detail) {
+        vertices(what, {&vertex, 1}, {}, detail);
+    }
     void cell(Defect what, Index cell, const std::string& detail) { cells(what, {&cell, 1}, detail); }
 
     /// About a vertex, an edge or a facet, by its vertices, with the cells that take part.
@@ -40,7 +42,9 @@ public:
     }
 
     /// Entities with the user's numbers.
-    std::vector<Entity> vertex_entities(std::span<const Index> vertices) const { return name("vertex", vertices); }
+    std::vector<Entity> vertex_entities(std::span<const Index> vertices) const {
+        return name("vertex", vertices);
+    }
     std::vector<Entity> cell_entities(std::span<const Index> cells) const { return name("cell", cells); }
 
 private:
@@ -89,7 +93,8 @@ void each_row(const Column<std::int64_t>& column, const Visit& visit) {
 template<class T>
 Array<T> read_column(const Column<std::int64_t>& column) {
     Array<T> values(column.rows());
-    each_row(column, [&](std::size_t row, const std::int64_t* value) { values[row] = static_cast<T>(*value); });
+    each_row(column,
+             [&](std::size_t row, const std::int64_t* value) { values[row] = static_cast<T>(*value); });
     return values;
 }
 

@@ -50,7 +50,8 @@ struct BoundaryFacet {
 template<int D>
 using BoundaryFacets = std::array<std::vector<BoundaryFacet<D>>, 2>;
 
-// --- check_regions.cpp -----------------------------------------------------------------------------------------------
+// --- check_regions.cpp
+// -----------------------------------------------------------------------------------------------
 
 /// Finds the slab's times and the region of each cell, and compares both with the claims.
 /// False when there are no two caps to go on with.
@@ -65,7 +66,8 @@ void check_cap_cells(const HullView<D>& view, double sign, Findings& findings);
 template<int D>
 void check_euler(const HullView<D>& view, const ManifoldCounts& counts, Findings& findings);
 
-// --- check_tracks.cpp ------------------------------------------------------------------------------------------------
+// --- check_tracks.cpp
+// ------------------------------------------------------------------------------------------------
 
 /// Each track has one vertex at a time and leads from the slab's start to its end.
 template<int D>
@@ -79,7 +81,8 @@ BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findin
 template<int D>
 void check_boundary_image(const BoundaryFacets<D>& boundary, Findings& findings);
 
-// --- check_patches.cpp -----------------------------------------------------------------------------------------------
+// --- check_patches.cpp
+// -----------------------------------------------------------------------------------------------
 
 /// Patch numbers against regions and the list of patches; counts the side's cells by patch.
 template<int D>
@@ -89,7 +92,8 @@ std::vector<PatchCount> check_patches(const HullView<D>& view, Findings& finding
 template<int D>
 void check_patch_columns(const HullView<D>& view, Findings& findings);
 
-// --- check_claims.cpp ------------------------------------------------------------------------------------------------
+// --- check_claims.cpp
+// ------------------------------------------------------------------------------------------------
 
 /// Takes claims of a wrong shape out of the view.
 template<int D>

@@ -5,6 +5,7 @@
 #include "slabhull/geometry/embedding.h"
 #include "slabhull/geometry/shapes.h"
 #include "slabhull/io/files.h"
+#include "slabhull/slab/slab.h"
 #include "slabhull/topology/adjacency.h"
 
 #include "mesh_soup.h"
@@ -170,8 +171,7 @@ SpatialMesh<D> mesh_bodies(const InitialBodies& bodies, const CapOptions& option
 } // namespace
 
 template<int D>
-SpatialMesh<D> initial_cap(const Case& the_case, const CapOptions& options, IdCounter& ids, const Listener& listener,
-                           StageClock& clock) {
+SpatialMesh<D> initial_cap(const Case& the_case, IdCounter& ids, const Listener& listener, StageClock& clock) {
     SpatialMesh<D> mesh;
     if (const auto* file = std::get_if<InitialMesh>(&the_case.initial)) {
         const io::Soup soup = io::read_mesh(file->file);
@@ -179,14 +179,14 @@ SpatialMesh<D> initial_cap(const Case& the_case, const CapOptions& options, IdCo
         mesh = domain_of_soup<D>(soup, listener);
         clock.book("initial boundary");
     } else {
-        mesh = mesh_bodies<D>(std::get<InitialBodies>(the_case.initial), options, clock);
+        mesh = mesh_bodies<D>(std::get<InitialBodies>(the_case.initial), cap_options(the_case), clock);
     }
     sort_boundary_by_patch(mesh);
     number_vertices(mesh, ids);
     return mesh;
 }
 
-template SpatialMesh<2> initial_cap<2>(const Case&, const CapOptions&, IdCounter&, const Listener&, StageClock&);
-template SpatialMesh<3> initial_cap<3>(const Case&, const CapOptions&, IdCounter&, const Listener&, StageClock&);
+template SpatialMesh<2> initial_cap<2>(const Case&, IdCounter&, const Listener&, StageClock&);
+template SpatialMesh<3> initial_cap<3>(const Case&, IdCounter&, const Listener&, StageClock&);
 
 } // namespace slabhull

@@ -58,12 +58,9 @@ public:
     Runner(const Case& the_case, const Listener& listener) : case_{the_case}, listener_{listener} {}
 
     RunResult run() {
-        CapOptions cap_options;
-        cap_options.grading = {case_.cap_growth, case_.cap_size};
-        cap_options.radius_edge = case_.cap_quality;
         listener_.progress("initial cap", 0);
         StageClock clock;
-        SpatialMesh<D> cap = initial_cap<D>(case_, cap_options, ids_, listener_, clock);
+        SpatialMesh<D> cap = initial_cap<D>(case_, ids_, listener_, clock);
         settings_ = settings_of<D>(case_, cap.patches);
         report_initial(cap, clock);
         try {
@@ -82,27 +79,11 @@ public:
     }
 
 private:
-    double slab_time(int slab) const {
-        return slab == case_.slabs ? case_.end
-                                   : case_.start + (case_.end - case_.start) * slab / static_cast<double>(case_.slabs);
-    }
-
-    std::vector<double> level_times(int slab) const {
-        const double begin = slab_time(slab);
-        const double end = slab_time(slab + 1);
-        const int layers = case_.layers_in(end - begin);
-        std::vector<double> times;
-        for (int level = 0; level <= layers; ++level) {
-            times.push_back(level == layers ? end : begin + (end - begin) * level / layers);
-        }
-        return times;
-    }
-
     SpatialMesh<D> run_slab(const SpatialMesh<D>& initial, int number) {
         listener_.progress(fmt::format("slab {} of {}", number + 1, case_.slabs),
                            static_cast<double>(number) / case_.slabs);
         StageClock clock;
-        Slab<D> slab = build_slab<D>(initial, number, level_times(number), settings_, ids_, clock);
+        Slab<D> slab = build_slab<D>(initial, number, case_.level_times(number), settings_, ids_, clock);
         const HullReport checked = check_hull<D>(columns_of(slab.hull));
         clock.book("checking");
         if (!checked.clean()) {

@@ -76,14 +76,20 @@ void require_embedded_levels(const Sweep<D>& sweep) {
 
 } // namespace
 
+CapOptions cap_options(const Case& the_case) {
+    CapOptions options;
+    options.grading = {the_case.cap_growth, the_case.cap_size};
+    options.radius_edge = the_case.cap_quality;
+    return options;
+}
+
 template<int D>
 SlabSettings<D> settings_of(const Case& the_case, const PatchList& patches) {
     SlabSettings<D> settings;
     settings.motion_start = the_case.start;
     settings.trajectory = the_case.trajectory;
     settings.split = the_case.split;
-    settings.cap.grading = {the_case.cap_growth, the_case.cap_size};
-    settings.cap.radius_edge = the_case.cap_quality;
+    settings.cap = cap_options(the_case);
     for (const auto& [patch, spec] : the_case.motions) {
         settings.motions[number_of(patches, patch, "motion")].motion = motion_of<D>(spec, the_case.start);
     }

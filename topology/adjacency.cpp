@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t vertices_per_piece = 1 << 13;
 
-/// One side of a facet: a cell and the facet's place in it. The facet's smallest vertex is that of the bucket.
+/// One side of a facet: a cell and the facet's place in it. The facet's smallest vertex is that of the
+/// bucket.
 struct HalfFacet {
     std::uint64_t others; ///< the facet's other vertices, ascending, 32 bits each
     Index cell;
@@ -34,8 +35,9 @@ HalfFacet half_facet(const SortedCell<D>& cell, std::size_t k, Index number) {
     return {others, number, cell.place[k], cell.facet_odd(k), false};
 }
 
-/// Facets are compared only with facets of the same smallest vertex. In sorted order, vertex 0 is the smallest of
-/// all facets but the one opposite to it, whose smallest is vertex 1: a cell is filed under these two.
+/// Facets are compared only with facets of the same smallest vertex. In sorted order, vertex 0 is the
+/// smallest of all facets but the one opposite to it, whose smallest is vertex 1: a cell is filed under these
+/// two.
 template<int D>
 CellLists buckets_by_smallest_vertex(std::span<const Simplex<D>> cells, std::size_t vertex_count) {
     return list_cells(cells.size(), vertex_count, [&](std::size_t c, const auto& file) {
@@ -153,7 +155,8 @@ private:
             facet[i] = static_cast<Index>(others);
         }
         std::vector<Index> in;
-        std::transform(run.begin(), run.end(), std::back_inserter(in), [](const HalfFacet& h) { return h.cell; });
+        std::transform(run.begin(), run.end(), std::back_inserter(in),
+                       [](const HalfFacet& h) { return h.cell; });
         defects.push_back({kind, facet, std::move(in)});
     }
 

@@ -12,7 +12,8 @@
 
 namespace slabhull {
 
-/// Cells filed under vertices, in compressed rows. The order inside a row depends on the threads: use it as a set.
+/// Cells filed under vertices, in compressed rows. The order inside a row depends on the threads: use it as a
+/// set.
 struct CellLists {
     Array<std::uint64_t> begin; ///< vertex_count + 1 entries
     Array<Index> cells;

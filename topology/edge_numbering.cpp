@@ -55,27 +55,28 @@ EdgeNumbering number_edges(std::span<const Simplex<3>> cells, std::size_t vertex
                            std::span<const Neighbors<3>> neighbors) {
     const std::vector<Index> first = first_cells(cells, vertex_count);
     std::vector<std::size_t> base(vertex_count + 1, 0);
-    each_upper_link(cells, neighbors, first, [&](Index v, std::span<const Index>, const LocalNumbering& above) {
-        base[v + 1] = above.size();
-    });
+    each_upper_link(
+        cells, neighbors, first,
+        [&](Index v, std::span<const Index>, const LocalNumbering& above) { base[v + 1] = above.size(); });
     for (std::size_t v = 0; v < vertex_count; ++v) {
         base[v + 1] += base[v];
     }
     EdgeNumbering edges;
     edges.count = checked_index(base[vertex_count], "edges");
     edges.of_cell.resize(cells.size());
-    each_upper_link(cells, neighbors, first, [&](Index v, std::span<const Index> star, LocalNumbering& above) {
-        for (const Index c : star) {
-            const auto at =
-                static_cast<std::size_t>(std::find(cells[c].begin(), cells[c].end(), v) - cells[c].begin());
-            for (std::size_t i = 0; i < 4; ++i) {
-                if (cells[c][i] > v) {
-                    const Index number = above.number(cells[c][i]);
-                    edges.of_cell[c][tetrahedron_edge(at, i)] = static_cast<Index>(base[v] + number);
+    each_upper_link(
+        cells, neighbors, first, [&](Index v, std::span<const Index> star, LocalNumbering& above) {
+            for (const Index c : star) {
+                const auto at = static_cast<std::size_t>(std::find(cells[c].begin(), cells[c].end(), v) -
+                                                         cells[c].begin());
+                for (std::size_t i = 0; i < 4; ++i) {
+                    if (cells[c][i] > v) {
+                        const Index number = above.number(cells[c][i]);
+                        edges.of_cell[c][tetrahedron_edge(at, i)] = static_cast<Index>(base[v] + number);
+                    }
                 }
             }
-        }
-    });
+        });
     return edges;
 }
 

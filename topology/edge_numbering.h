@@ -27,7 +27,8 @@ struct EdgeNumbering {
     Array<std::array<Index, 6>> of_cell; ///< in the order of tetrahedron_edges
 };
 
-/// Edges are numbered by their smaller vertex, so neighbouring edges have close numbers. Parallel and deterministic.
+/// Edges are numbered by their smaller vertex, so neighbouring edges have close numbers. Parallel and
+/// deterministic.
 EdgeNumbering number_edges(std::span<const Simplex<3>> cells, std::size_t vertex_count,
                            std::span<const Neighbors<3>> neighbors);
 

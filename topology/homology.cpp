@@ -24,8 +24,9 @@ std::size_t rank_mod_2(std::vector<std::vector<Word>> rows) {
     for (std::size_t bit = 0; bit < words * word_bits; ++bit) {
         const std::size_t word = bit / word_bits;
         const Word mask = Word{1} << (bit % word_bits);
-        const auto pivot = std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(rank), rows.end(),
-                                        [&](const std::vector<Word>& row) { return (row[word] & mask) != 0; });
+        const auto pivot =
+            std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(rank), rows.end(),
+                         [&](const std::vector<Word>& row) { return (row[word] & mask) != 0; });
         if (pivot == rows.end()) {
             continue;
         }
@@ -50,9 +51,10 @@ class MorseReduction {
 public:
     MorseReduction(std::span<const Simplex<3>> cells, std::size_t vertex_count,
                    std::span<const Neighbors<3>> neighbors)
-        : cells_{cells}, neighbors_{neighbors}, vertex_count_{vertex_count},
-          edges_{number_edges(cells, vertex_count, neighbors)}, present_(cells.size(), 0),
-          degree_(edges_.count, 0), triangles_(edges_.count, 0) {}
+        : cells_{cells}, neighbors_{neighbors}, vertex_count_{vertex_count}, edges_{number_edges(cells,
+                                                                                                 vertex_count,
+                                                                                                 neighbors)},
+          present_(cells.size(), 0), degree_(edges_.count, 0), triangles_(edges_.count, 0) {}
 
     /// b_1 = b_2.
     std::size_t first_betti_number() {
@@ -138,8 +140,8 @@ private:
         }
     }
 
-    /// The edges left by the collapses form a graph: those outside a spanning forest are critical. They are numbered
-    /// in `triangles_`, which no longer serves them.
+    /// The edges left by the collapses form a graph: those outside a spanning forest are critical. They are
+    /// numbered in `triangles_`, which no longer serves them.
     std::size_t find_critical_edges() {
         UnionFind joined{vertex_count_};
         std::size_t critical = 0;
@@ -157,8 +159,9 @@ private:
         return critical;
     }
 
-    /// Boundaries of the critical triangles in terms of critical edges, 64 of these at a time. An edge that was
-    /// collapsed into a triangle stands for the triangle's other two edges, which were collapsed later or never.
+    /// Boundaries of the critical triangles in terms of critical edges, 64 of these at a time. An edge that
+    /// was collapsed into a triangle stands for the triangle's other two edges, which were collapsed later or
+    /// never.
     std::vector<std::vector<Word>> boundary_matrix(std::size_t critical) const {
         const std::size_t words = (critical + word_bits - 1) / word_bits;
         std::vector<std::vector<Word>> rows(critical_triangles_.size(), std::vector<Word>(words, 0));

@@ -10,16 +10,16 @@ namespace slabhull {
 
 namespace {
 
-/// The link as cells of dimension D - 1 with corners: corner (c, i) is vertex i of star cell c. Corners are joined
-/// when they are the same vertex of neighbouring cells, so a vertex in which k cycles meet keeps k sets of corners:
-/// it is cut apart.
+/// The link as cells of dimension D - 1 with corners: corner (c, i) is vertex i of star cell c. Corners are
+/// joined when they are the same vertex of neighbouring cells, so a vertex in which k cycles meet keeps k
+/// sets of corners: it is cut apart.
 template<int D>
 class LinkAnalysis {
 public:
     LinkAnalysis(Index vertex, std::span<const Index> star, std::span<const Simplex<D>> cells,
                  std::span<const Neighbors<D>> neighbors)
-        : vertex_{vertex}, star_{star}, cells_{cells}, neighbors_{neighbors}, corners_{star.size() * (D + 1)},
-          pieces_{star.size()} {
+        : vertex_{vertex}, star_{star}, cells_{cells},
+          neighbors_{neighbors}, corners_{star.size() * (D + 1)}, pieces_{star.size()} {
         for (const Index c : star) {
             local_.number(c);
         }

@@ -95,7 +95,8 @@ public:
     }
 
 private:
-    // --- cells ---------------------------------------------------------------------------------------------------
+    // --- cells
+    // ---------------------------------------------------------------------------------------------------
 
     void examine_cells() {
         PieceLists<Index> repeated(cells_.size(), cells_per_piece);
@@ -111,8 +112,9 @@ private:
         });
         for (const Index c : repeated.joined()) {
             discredit(c);
-            report(ManifoldDefect::repeated_vertex,
-                   [&] { return ManifoldFinding{{}, list_of(cells_[c]), {c}, "names a vertex twice"}; });
+            report(ManifoldDefect::repeated_vertex, [&] {
+                return ManifoldFinding{{}, list_of(cells_[c]), {c}, "names a vertex twice"};
+            });
         }
         report_duplicates(suspects.joined());
         std::sort(discredited_.begin(), discredited_.end());
@@ -135,7 +137,8 @@ private:
         for (const auto& [c, original] : doubles) {
             discredit(c);
             report(ManifoldDefect::duplicate_cell, [&, c = c, first = original] {
-                return ManifoldFinding{{}, list_of(cells_[c]), {c, first}, "has the vertices of an earlier one"};
+                return ManifoldFinding{
+                    {}, list_of(cells_[c]), {c, first}, "has the vertices of an earlier one"};
             });
         }
     }
@@ -156,7 +159,8 @@ private:
 
     bool tainted(Index v) const { return !tainted_.empty() && tainted_[v]; }
 
-    // --- facets --------------------------------------------------------------------------------------------------
+    // --- facets
+    // --------------------------------------------------------------------------------------------------
 
     void examine_facets() {
         using Kind = typename FacetDefect<D>::Kind;
@@ -174,16 +178,17 @@ private:
 
     void examine_facet(const FacetDefect<D>& defect) {
         std::vector<Index> cells = defect.cells;
-        std::erase_if(cells, [&](Index c) {
-            return std::binary_search(discredited_.begin(), discredited_.end(), c);
-        });
+        std::erase_if(
+            cells, [&](Index c) { return std::binary_search(discredited_.begin(), discredited_.end(), c); });
         if (cells.empty() || (cells.size() == 2 && agree(defect.facet, cells[0], cells[1]))) {
             return; // nothing is wrong with it but the discredited cells
         }
         const ManifoldDefect what = cells.size() == 1   ? ManifoldDefect::open_facet
                                     : cells.size() == 2 ? ManifoldDefect::disoriented_facet
                                                         : ManifoldDefect::overfull_facet;
-        report(what, [&] { return ManifoldFinding{{}, list_of(defect.facet), cells, facet_detail(what, cells.size())}; });
+        report(what, [&] {
+            return ManifoldFinding{{}, list_of(defect.facet), cells, facet_detail(what, cells.size())};
+        });
     }
 
     static std::string facet_detail(ManifoldDefect what, std::size_t cells) {
@@ -208,7 +213,8 @@ private:
         return cell.facet_odd(k);
     }
 
-    // --- vertices ------------------------------------------------------------------------------------------------
+    // --- vertices
+    // ------------------------------------------------------------------------------------------------
 
     struct Usage {
         std::vector<Index> cells; ///< how many use each vertex
@@ -254,7 +260,8 @@ private:
         report_.counts.edges = D == 2 ? report_.counts.facets : link_vertices / 2;
     }
 
-    /// Leaves the vertices of the link in `link`. May doubt a sound vertex of an open manifold, never trusts a bad one.
+    /// Leaves the vertices of the link in `link`. May doubt a sound vertex of an open manifold, never trusts
+    /// a bad one.
     bool is_sound(Index vertex, std::span<const Index> star, std::size_t uses, LocalNumbering& link) const {
         link.clear();
         if (star.size() != uses) {
@@ -328,7 +335,8 @@ private:
     }
 
     ManifoldFinding pinched_edge(Index v, Index w, std::span<const Index> star) const {
-        ManifoldFinding finding{{}, {std::min(v, w), std::max(v, w)}, {}, "its cells are more than one cycle"};
+        ManifoldFinding finding{
+            {}, {std::min(v, w), std::max(v, w)}, {}, "its cells are more than one cycle"};
         std::copy_if(star.begin(), star.end(), std::back_inserter(finding.cells), [&](Index c) {
             return std::find(cells_[c].begin(), cells_[c].end(), w) != cells_[c].end();
         });
@@ -342,7 +350,8 @@ private:
         return fmt::format("its link has Euler characteristic {}, a sphere has 2", faults.euler);
     }
 
-    // --- the report ----------------------------------------------------------------------------------------------
+    // --- the report
+    // ----------------------------------------------------------------------------------------------
 
     /// Counts a finding; makes it only when it is kept.
     template<class Make>

@@ -15,8 +15,8 @@ struct SortedCell {
     std::array<std::uint8_t, D + 1> place; ///< place[k]: local index of vertices[k] in the cell as given
     bool odd;
 
-    /// Whether the cell induces the negative orientation on the facet opposite to vertices[k], taken ascending.
-    /// Two cells agree on a facet when this differs.
+    /// Whether the cell induces the negative orientation on the facet opposite to vertices[k], taken
+    /// ascending. Two cells agree on a facet when this differs.
     bool facet_odd(std::size_t k) const { return odd != ((k & 1) != 0); }
 
     /// The facet opposite to vertices[k], ascending.

@@ -10,7 +10,8 @@
 
 namespace slabhull {
 
-/// Numbers distinct keys 0, 1, 2 .. in the order they come. Made to be cleared and reused for many small sets.
+/// Numbers distinct keys 0, 1, 2 .. in the order they come. Made to be cleared and reused for many small
+/// sets.
 class LocalNumbering {
 public:
     LocalNumbering() : table_(64, 0) {}

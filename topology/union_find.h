@@ -10,10 +10,13 @@
 
 namespace slabhull {
 
-/// Disjoint sets of 0 .. count - 1. A set is represented by its smallest element, whatever the order of joining.
+/// Disjoint sets of 0 .. count - 1. A set is represented by its smallest element, whatever the order of
+/// joining.
 class UnionFind {
 public:
-    explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+    explicit UnionFind(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), Index{0});
+    }
 
     Index find(Index x) {
         while (parent_[x] != x) {

@@ -225,6 +225,25 @@ TEST_CASE("scaling space by a power of two scales the field exactly", "[size_fie
     }
 }
 
+TEST_CASE("the cubes of the wanted size fill the box", "[size_field]") {
+    Cloud<3> cloud;
+    cloud.add({0, 0, 0}, 0.1);
+    cloud.add({2, 1, 1}, 0.5);
+    CHECK(field_of(cloud, {0.0}).cube_count() == Approx(8 * 1000));
+    const SizeField<3> graded = field_of(cloud, {0.3});
+    double sum = 0;
+    int samples = 0;
+    for (double x = 0.05; x < 2; x += 0.1) {
+        for (double y = 0.05; y < 2; y += 0.1) {
+            for (double z = 0.05; z < 2; z += 0.1) {
+                sum += std::pow(by_definition<3>(cloud, {0.3}, {x, y, z}), -3);
+                ++samples;
+            }
+        }
+    }
+    CHECK(graded.cube_count() == Approx(8 * sum / samples).epsilon(0.1));
+}
+
 TEST_CASE("the spacing of a boundary vertex is the mean length of the edges at it", "[size_field]") {
     const std::vector<Point<2>> corners{{0, 0}, {3, 0}, {3, 4}, {9, 9}};
     const std::vector<Facet<2>> triangle{{0, 1}, {1, 2}, {2, 0}};

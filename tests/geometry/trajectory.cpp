@@ -171,6 +171,15 @@ TEST_CASE("going back in time returns to the start") {
     }
 }
 
+TEST_CASE("dopri5 ends at any time, whatever its last substep rounds to") {
+    const auto turning = rotation<2>({}, {}, 1);
+    for (const Point<2>& times : random_points<2>(2000, 3)) {
+        std::vector<Point<2>> x{{1, 0}};
+        advance<2>(*turning, x, times[0], times[1], {Scheme::dopri5, 3, 1e-3});
+        CHECK(distance(x[0], (*turning->map(times[0], times[1]))({1, 0})) < 0.1);
+    }
+}
+
 TEST_CASE("paths have the same bits for any number of threads") {
     const auto motion = formula_velocity<3>({"sin(y*t)", "x*z", "exp(-x*x)"});
     for (const Scheme scheme : stepping_schemes) {

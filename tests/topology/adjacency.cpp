@@ -67,8 +67,8 @@ void require_like_the_book(const Array<Simplex<D>>& cells, std::size_t vertices)
         const bool listed = defect != adjacency.defects.end() && defect->facet == facet;
         REQUIRE((listed || sides.size() == 2));
         for (const auto& [c, i] : sides) {
-            const Index expected = sides.size() == 2 ? (sides[0] == std::pair{c, i} ? sides[1] : sides[0]).first
-                                                     : no_index;
+            const Index expected =
+                sides.size() == 2 ? (sides[0] == std::pair{c, i} ? sides[1] : sides[0]).first : no_index;
             REQUIRE(adjacency.neighbors[c][i] == expected);
         }
         if (listed) {
@@ -111,7 +111,8 @@ TEST_CASE("in a closed oriented complex, every facet joins two cells and nothing
 
 TEST_CASE("any soup gets the neighbours and defects that a map of all facets gives") {
     for (unsigned seed = 0; seed < 20; ++seed) {
-        require_like_the_book<1>(random_soup<1>(40, 30, seed), 30); // repeated vertices, overfull facets and all
+        require_like_the_book<1>(random_soup<1>(40, 30, seed),
+                                 30); // repeated vertices, overfull facets and all
         require_like_the_book<2>(random_soup<2>(60, 12, seed), 12);
         require_like_the_book<3>(random_soup<3>(200, 12, seed), 12);
         require_like_the_book<3>(random_soup<3>(900, 8, seed), 8); // buckets too large for hashing

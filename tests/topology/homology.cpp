@@ -82,8 +82,10 @@ TEST_CASE("torsion of order two counts: projective space has b1 = 1 over Z/2") {
 
 TEST_CASE("Betti numbers add up over disjoint unions and connected sums") {
     const auto ring = specimens::times_circle(specimens::sphere<2>(), 4);
-    require_betti<3>(specimens::disjoint_union(specimens::torus<3>(3), specimens::projective_space()), {2, 4, 4, 2});
-    require_betti<3>(connected_sum(specimens::refined(ring), specimens::refined(specimens::torus<3>(3))), {1, 4, 4, 1});
+    require_betti<3>(specimens::disjoint_union(specimens::torus<3>(3), specimens::projective_space()),
+                     {2, 4, 4, 2});
+    require_betti<3>(connected_sum(specimens::refined(ring), specimens::refined(specimens::torus<3>(3))),
+                     {1, 4, 4, 1});
 }
 
 TEST_CASE("more critical cells than fit a machine word are handled") {

@@ -32,7 +32,8 @@ void require_only(const ManifoldReport& report, ManifoldDefect what, std::size_t
 
 template<int D>
 void require_manifold(const Complex<D>& complex, std::int64_t euler, std::size_t components) {
-    for (const Complex<D>& variant : {complex, specimens::shuffled(complex, 11), specimens::refined(complex)}) {
+    for (const Complex<D>& variant :
+         {complex, specimens::shuffled(complex, 11), specimens::refined(complex)}) {
         const ManifoldReport report = examine(variant);
         REQUIRE(report.clean());
         CHECK(report.findings.empty());
@@ -144,11 +145,13 @@ TEST_CASE("a reversed cell is found by its disoriented facets") {
 }
 
 TEST_CASE("two spheres that touch in a point are found at the point") {
-    auto surfaces = specimens::disjoint_union(specimens::sphere<2>(), specimens::refined(specimens::sphere<2>()));
+    auto surfaces =
+        specimens::disjoint_union(specimens::sphere<2>(), specimens::refined(specimens::sphere<2>()));
     specimens::merge_vertices(surfaces, 2, 5);
     require_only(examine(surfaces), ManifoldDefect::singular_vertex, 1);
 
-    auto hulls = specimens::disjoint_union(specimens::sphere<3>(), specimens::refined(specimens::sphere<3>()));
+    auto hulls =
+        specimens::disjoint_union(specimens::sphere<3>(), specimens::refined(specimens::sphere<3>()));
     specimens::merge_vertices(hulls, 2, 6);
     const ManifoldReport report = examine(hulls);
     require_only(report, ManifoldDefect::singular_vertex, 1);
@@ -156,13 +159,15 @@ TEST_CASE("two spheres that touch in a point are found at the point") {
 }
 
 TEST_CASE("a cone over a torus is found, though its link is connected and closed") {
-    const ManifoldReport report = examine(specimens::shuffled(specimens::suspension(specimens::torus<2>(5)), 2));
+    const ManifoldReport report =
+        examine(specimens::shuffled(specimens::suspension(specimens::torus<2>(5)), 2));
     require_only(report, ManifoldDefect::singular_vertex, 2);
     CHECK(report.findings.front().detail.find("Euler characteristic 0") != std::string::npos);
 }
 
 TEST_CASE("two spheres that touch along an edge are blamed for the edge alone") {
-    auto hulls = specimens::disjoint_union(specimens::refined(specimens::sphere<3>()), specimens::sphere<3>());
+    auto hulls =
+        specimens::disjoint_union(specimens::refined(specimens::sphere<3>()), specimens::sphere<3>());
     specimens::merge_vertices(hulls, 1, 11);
     specimens::merge_vertices(hulls, 3, 10);
     const ManifoldReport report = examine(hulls);

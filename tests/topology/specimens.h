@@ -107,7 +107,8 @@ Complex<D> torus(Index n) {
     return result;
 }
 
-/// A closed surface times a circle of `levels` >= 3 steps; prisms are cut along the diagonals of smallest vertex.
+/// A closed surface times a circle of `levels` >= 3 steps; prisms are cut along the diagonals of smallest
+/// vertex.
 inline Complex<3> times_circle(const Complex<2>& surface, Index levels) {
     Complex<3> result{{}, surface.vertices * levels};
     const auto count = static_cast<Index>(surface.vertices);
@@ -167,8 +168,8 @@ void merge_vertices(Complex<D>& complex, Index kept, Index gone) {
     }
 }
 
-/// Real projective 3-space: antipodal points of the 3-sphere are one. From the 16-cell, whose faces are the sign
-/// vectors in {-1, 0, 1}^4: its flags are the cells of its barycentric subdivision.
+/// Real projective 3-space: antipodal points of the 3-sphere are one. From the 16-cell, whose faces are the
+/// sign vectors in {-1, 0, 1}^4: its flags are the cells of its barycentric subdivision.
 inline Complex<3> projective_space() {
     using Signs = std::array<int, 4>;
     std::map<Signs, Index> number;
@@ -181,7 +182,8 @@ inline Complex<3> projective_space() {
         return number.try_emplace(face, static_cast<Index>(number.size())).first->second;
     };
     Complex<3> result;
-    for (unsigned signs = 0; signs < 8; ++signs) { // of each antipodal pair, the facet with a positive last sign
+    for (unsigned signs = 0; signs < 8;
+         ++signs) { // of each antipodal pair, the facet with a positive last sign
         std::array<Index, 4> order{0, 1, 2, 3};
         do {
             Signs face{};
@@ -203,7 +205,8 @@ inline Complex<3> projective_space() {
     return result;
 }
 
-/// The same complex with vertices renumbered, cells reordered and their vertices rotated without changing orientation.
+/// The same complex with vertices renumbered, cells reordered and their vertices rotated without changing
+/// orientation.
 template<int D>
 Complex<D> shuffled(const Complex<D>& complex, unsigned seed) {
     std::mt19937 random{seed};
@@ -217,7 +220,8 @@ Complex<D> shuffled(const Complex<D>& complex, unsigned seed) {
             v = number[v];
         }
         if constexpr (D >= 2) { // a cycle of three is an even permutation
-            std::rotate(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(random() % 3), cell.begin() + 3);
+            std::rotate(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(random() % 3),
+                        cell.begin() + 3);
         }
     }
     return result;

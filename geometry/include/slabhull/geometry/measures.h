@@ -23,8 +23,8 @@ struct AngleRange {
     double smallest;
     double largest;
 };
-/// For (D, N) = (2, 2), (2, 3), (3, 3), (3, 4). From the Gram matrix of the edges: good to about 1e-6 degrees near
-/// 0 and 180. A simplex with a facet of measure zero has no dihedral angle there: its range is 0 to 180.
+/// For (D, N) = (2, 2), (2, 3), (3, 3), (3, 4). From the Gram matrix of the edges: good to about 1e-6 degrees
+/// near 0 and 180. A simplex with a facet of measure zero has no dihedral angle there: its range is 0 to 180.
 template<int D, int N>
 AngleRange dihedral_angles(const std::array<Point<N>, D + 1>& corners);
 
@@ -47,14 +47,15 @@ struct Measures {
     AngleRange angles{180, 0}; ///< over all simplices, in degrees
 };
 
-/// Compensated sums in a fixed order of pieces: the same for any number of threads. x is taken relative to the first
-/// point, which changes nothing for a closed hull and loses fewer digits.
+/// Compensated sums in a fixed order of pieces: the same for any number of threads. x is taken relative to
+/// the first point, which changes nothing for a closed hull and loses fewer digits.
 template<int D>
 Measures<D> measure_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells);
 
 /// The same by groups: group[c] < group_count is that of cell c.
 template<int D>
-std::vector<Measures<D>> measure_groups(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+std::vector<Measures<D>> measure_groups(std::span<const Point<D + 1>> points,
+                                        std::span<const Simplex<D>> cells,
                                         std::span<const std::uint8_t> group, std::size_t group_count);
 
 /// Sums over D-simplices in R^D.
@@ -76,9 +77,11 @@ extern template AngleRange dihedral_angles<3, 3>(const std::array<Point<3>, 4>&)
 extern template AngleRange dihedral_angles<3, 4>(const std::array<Point<4>, 4>&);
 extern template Measures<2> measure_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
 extern template Measures<3> measure_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
-extern template std::vector<Measures<2>> measure_groups<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
+extern template std::vector<Measures<2>> measure_groups<2>(std::span<const Point<3>>,
+                                                           std::span<const Simplex<2>>,
                                                            std::span<const std::uint8_t>, std::size_t);
-extern template std::vector<Measures<3>> measure_groups<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
+extern template std::vector<Measures<3>> measure_groups<3>(std::span<const Point<4>>,
+                                                           std::span<const Simplex<3>>,
                                                            std::span<const std::uint8_t>, std::size_t);
 extern template SolidMeasures measure_solid<2>(std::span<const Point<2>>, std::span<const Simplex<2>>);
 extern template SolidMeasures measure_solid<3>(std::span<const Point<3>>, std::span<const Simplex<3>>);

@@ -38,6 +38,9 @@ public:
 
     std::size_t box_count() const { return boxes_.size(); }
 
+    /// The integral of h^-D over the box of the points: how many cubes of the wanted size fill it.
+    double cube_count() const;
+
 private:
     static constexpr std::size_t fan = std::size_t{1} << D;
     struct Source {
@@ -51,6 +54,8 @@ private:
     class Builder;
 
     Index leaf_at(const Point<D>& x) const;
+    double cube_count(Index box, const Point<D>& centre, double half) const;
+    static Point<D> child_centre(const Point<D>& centre, double half, std::size_t child);
 
     Grading grading_;
     Point<D> corner_{};

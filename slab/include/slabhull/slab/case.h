@@ -96,8 +96,10 @@ struct Case {
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};
 
-    /// Number of layers in a slab of the given duration.
-    int layers_in(double duration) const;
+    /// When slab `slab` begins; that of `slabs` is the end.
+    double slab_begin(int slab) const;
+    /// The times of the levels of a slab, from its beginning to its end.
+    std::vector<double> level_times(int slab) const;
 };
 
 /// Reads a case file. Paths in it are taken relative to it.
@@ -107,5 +109,8 @@ Case read_case(const std::filesystem::path& path);
 /// One of the paper's six experiments at a level (a row of its tables), ready to run.
 /// Throws UsageError naming the experiments or the levels that there are.
 Case experiment_case(const std::string& name, int level);
+
+/// The same with any refinement: the spacings of body, box and time are divided by it.
+Case experiment_at(const std::string& name, double refinement);
 
 } // namespace slabhull

@@ -25,8 +25,8 @@ namespace slabhull {
 enum class Defect {
     // The columns themselves
     no_cells,
-    column_length,           ///< a claim has a wrong number of rows or components
-    index_out_of_range,      ///< a cell names a vertex that does not exist
+    column_length,      ///< a claim has a wrong number of rows or components
+    index_out_of_range, ///< a cell names a vertex that does not exist
     non_finite_coordinate,
     // Connectivity: see ManifoldDefect
     repeated_vertex,
@@ -37,21 +37,21 @@ enum class Defect {
     disoriented_facet,
     singular_edge,
     singular_vertex,
-    euler_mismatch,          ///< the hull has not the Euler characteristic that its caps ask for (D = 2)
+    euler_mismatch, ///< the hull has not the Euler characteristic that its caps ask for (D = 2)
     // Shape
     coincident_vertices,
-    degenerate_cell,         ///< measure below 1e-14 of the longest edge to the power D
-    not_closed,              ///< sum of normals is not zero to rounding, though every facet is closed
-    inward_orientation,      ///< the enclosed measure is not positive
-    inverted_cell,           ///< a cap cell facing the other way in time; in a spatial mesh, a sign other than most
+    degenerate_cell,    ///< measure below 1e-14 of the longest edge to the power D
+    not_closed,         ///< sum of normals is not zero to rounding, though every facet is closed
+    inward_orientation, ///< the enclosed measure is not positive
+    inverted_cell, ///< a cap cell facing the other way in time; in a spatial mesh, a sign other than most
     // Time and regions
-    no_duration,             ///< all vertices at one time
-    wrong_slab_time,         ///< no cap at the slab time that is claimed
+    no_duration,     ///< all vertices at one time
+    wrong_slab_time, ///< no cap at the slab time that is claimed
     time_outside_slab,
     missing_cap,
-    cap_not_flat,            ///< a cell claimed for a cap has vertices off the cap's time
-    wrong_region,            ///< claimed for another region than its vertices' times show
-    flat_side_cell,          ///< a side cell within one instant
+    cap_not_flat,   ///< a cell claimed for a cap has vertices off the cap's time
+    wrong_region,   ///< claimed for another region than its vertices' times show
+    flat_side_cell, ///< a side cell within one instant
     // Boundary and tracks
     untracked_boundary,      ///< a vertex where a cap meets the side has no track
     stray_track,             ///< a vertex inside a cap has a track
@@ -63,13 +63,13 @@ enum class Defect {
     // Claims
     negative_vertex_id,
     duplicate_vertex_id,
-    wrong_patch,             ///< not positive on the side, or not 0 in a cap
-    unknown_patch,           ///< not in the list of patches
-    patch_mismatch,          ///< the side over one boundary facet carries different patches
-    wrong_layer,             ///< not -1 in a cap, negative on the side, or the cell's times are not those of its layer
-    layer_gap,               ///< a layer is empty, or does not start where the one before ends
+    wrong_patch,    ///< not positive on the side, or not 0 in a cap
+    unknown_patch,  ///< not in the list of patches
+    patch_mismatch, ///< the side over one boundary facet carries different patches
+    wrong_layer,    ///< not -1 in a cap, negative on the side, or the cell's times are not those of its layer
+    layer_gap,      ///< a layer is empty, or does not start where the one before ends
     wrong_neighbor,
-    wrong_vertex_cell,       ///< the cell claimed to use a vertex does not
+    wrong_vertex_cell, ///< the cell claimed to use a vertex does not
     // Spatial meshes only
     folded_facet,            ///< two cells of the same sign on the same side of their common facet
     singular_boundary_ridge, ///< boundary facets meeting there are not two (D = 3: an edge, D = 2: a vertex)
@@ -135,10 +135,10 @@ struct PatchCount {
 struct HullReport : CheckResult {
     int dimension = 0;
     ManifoldCounts counts;
-    std::array<double, 2> time{};                   ///< as the vertices show it
-    std::array<std::size_t, 3> cells_by_region{};   ///< as the vertices' times show it
-    std::vector<PatchCount> cells_by_patch;         ///< of the side, by number, as claimed
-    std::size_t layers = 0;                         ///< as claimed
+    std::array<double, 2> time{};                 ///< as the vertices show it
+    std::array<std::size_t, 3> cells_by_region{}; ///< as the vertices' times show it
+    std::vector<PatchCount> cells_by_patch;       ///< of the side, by number, as claimed
+    std::size_t layers = 0;                       ///< as claimed
     double measure = 0;
     std::array<double, 3> measure_by_region{};
     double enclosed = 0;
@@ -147,9 +147,10 @@ struct HullReport : CheckResult {
     std::vector<std::size_t> betti; ///< empty unless asked for and the hull is a manifold
 };
 
-/// The whole check of a hull. It recomputes from connectivity and coordinates and only compares with the claims.
-/// Checks build on each other: where one finds the ground missing, those above it are listed as skipped.
-/// Cost: near-linear; about 40 extra bytes per cell (60 with Betti numbers). The same report for any number of threads.
+/// The whole check of a hull. It recomputes from connectivity and coordinates and only compares with the
+/// claims. Checks build on each other: where one finds the ground missing, those above it are listed as
+/// skipped. Cost: near-linear; about 40 extra bytes per cell (60 with Betti numbers). The same report for any
+/// number of threads.
 template<int D>
 HullReport check_hull(const HullColumns<D>& hull, const CheckOptions& options = {});
 
@@ -173,7 +174,9 @@ extern template HullColumns<2> columns_of<2>(const Hull<2>&);
 extern template HullColumns<3> columns_of<3>(const Hull<3>&);
 extern template HullReport check_hull<2>(const HullColumns<2>&, const CheckOptions&);
 extern template HullReport check_hull<3>(const HullColumns<3>&, const CheckOptions&);
-extern template MeshReport check_mesh<2>(std::span<const Point<2>>, std::span<const Simplex<2>>, const CheckOptions&);
-extern template MeshReport check_mesh<3>(std::span<const Point<3>>, std::span<const Simplex<3>>, const CheckOptions&);
+extern template MeshReport check_mesh<2>(std::span<const Point<2>>, std::span<const Simplex<2>>,
+                                         const CheckOptions&);
+extern template MeshReport check_mesh<3>(std::span<const Point<3>>, std::span<const Simplex<3>>,
+                                         const CheckOptions&);
 
 } // namespace slabhull

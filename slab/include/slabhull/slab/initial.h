@@ -2,7 +2,6 @@
 #pragma once
 
 #include "slabhull/core/message.h"
-#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/case.h"
 #include "slabhull/slab/stage_clock.h"
 #include "slabhull/slab/stitch.h"
@@ -16,7 +15,6 @@ namespace slabhull {
 /// Throws InputError for files that do not hold a valid domain, naming file and entities; GeometryError when meshing
 /// the first cap fails.
 template<int D>
-SpatialMesh<D> initial_cap(const Case& the_case, const CapOptions& options, IdCounter& ids, const Listener& listener,
-                           StageClock& clock);
+SpatialMesh<D> initial_cap(const Case& the_case, IdCounter& ids, const Listener& listener, StageClock& clock);
 
 } // namespace slabhull

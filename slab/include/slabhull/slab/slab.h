@@ -28,6 +28,9 @@ struct Slab {
     std::map<PatchNumber, ProjectionReport> projected;
 };
 
+/// How a case wants its caps meshed.
+CapOptions cap_options(const Case& the_case);
+
 /// The settings that a case gives, for a domain with the given patches.
 /// Throws UsageError for a motion or projection of a patch that there is not.
 template<int D>

@@ -14,15 +14,16 @@ template<int D>
 using BettiNumbers = std::array<std::size_t, D + 1>;
 
 /// Betti numbers over Z/2 of a closed D-manifold (D = 2, 3), exact.
-/// Needs: a soup of simplices that examine_manifold() finds clean (orientation does not matter), and its adjacency.
+/// Needs: a soup of simplices that examine_manifold() finds clean (orientation does not matter), and its
+/// adjacency.
 ///
-/// b_0 = b_D counts components. D = 2: b_1 follows from the Euler characteristic. D = 3: b_1 = b_2 by a discrete Morse
-/// reduction (Forman, Adv. Math. 134, 1998): a spanning forest of the dual graph takes one triangle per tetrahedron
-/// away; edges in a single triangle are collapsed until none is left, giving up a triangle where that is stuck; a
-/// spanning forest of the remaining edges takes the vertices. What is left is critical, a few cells as a rule, and the
-/// rank of their boundary map is found exactly.
-/// Cost: near-linear while critical cells are few (64 of them cost one more sweep over the edges). Measured up to
-/// three million tetrahedra: 0.7 s per million on one thread, 0.4 s on two, and 55 extra bytes for each. Deterministic.
+/// b_0 = b_D counts components. D = 2: b_1 follows from the Euler characteristic. D = 3: b_1 = b_2 by a
+/// discrete Morse reduction (Forman, Adv. Math. 134, 1998): a spanning forest of the dual graph takes one
+/// triangle per tetrahedron away; edges in a single triangle are collapsed until none is left, giving up a
+/// triangle where that is stuck; a spanning forest of the remaining edges takes the vertices. What is left is
+/// critical, a few cells as a rule, and the rank of their boundary map is found exactly. Cost: near-linear
+/// while critical cells are few (64 of them cost one more sweep over the edges). Measured up to three million
+/// tetrahedra: 0.7 s per million on one thread, 0.4 s on two, and 55 extra bytes for each. Deterministic.
 template<int D>
 BettiNumbers<D> betti_numbers(std::span<const Simplex<D>> cells, std::size_t vertex_count,
                               std::span<const Neighbors<D>> neighbors);

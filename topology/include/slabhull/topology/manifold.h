@@ -59,10 +59,10 @@ struct ManifoldOptions {
 
 /// Examines whether D-simplices (D = 2, 3) form a closed oriented D-manifold, from vertex numbers alone.
 /// Needs: vertices below `vertex_count`; `adjacency` as build_adjacency() gives it for these cells.
-/// A vertex is sound when walking its star through facets meets every cell that uses it and, for D = 3, its link has
-/// Euler characteristic 2: V - F / 2, as the link's edges are 3 F / 2. A connected closed surface of characteristic 2
-/// is a sphere without pinch points, so the edges at a sound vertex are sound too; only the others are looked at
-/// closely. Vertices of facets and cells that are already at fault are not blamed again.
+/// A vertex is sound when walking its star through facets meets every cell that uses it and, for D = 3, its
+/// link has Euler characteristic 2: V - F / 2, as the link's edges are 3 F / 2. A connected closed surface of
+/// characteristic 2 is a sphere without pinch points, so the edges at a sound vertex are sound too; only the
+/// others are looked at closely. Vertices of facets and cells that are already at fault are not blamed again.
 /// Cost: near-linear; about 8 extra bytes per cell. The result does not depend on the number of threads.
 template<int D>
 ManifoldReport examine_manifold(std::span<const Simplex<D>> cells, std::size_t vertex_count,
@@ -72,10 +72,10 @@ ManifoldReport examine_manifold(std::span<const Simplex<D>> cells, std::size_t v
 template<int D>
 std::size_t count_components(std::span<const Neighbors<D>> neighbors);
 
-extern template ManifoldReport examine_manifold<2>(std::span<const Simplex<2>>, std::size_t, const Adjacency<2>&,
-                                                   const ManifoldOptions&);
-extern template ManifoldReport examine_manifold<3>(std::span<const Simplex<3>>, std::size_t, const Adjacency<3>&,
-                                                   const ManifoldOptions&);
+extern template ManifoldReport examine_manifold<2>(std::span<const Simplex<2>>, std::size_t,
+                                                   const Adjacency<2>&, const ManifoldOptions&);
+extern template ManifoldReport examine_manifold<3>(std::span<const Simplex<3>>, std::size_t,
+                                                   const Adjacency<3>&, const ManifoldOptions&);
 extern template std::size_t count_components<2>(std::span<const Neighbors<2>>);
 extern template std::size_t count_components<3>(std::span<const Neighbors<3>>);
 
