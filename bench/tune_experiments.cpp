@@ -13,6 +13,8 @@ using namespace slabhull;
 
 namespace {
 
+constexpr double good_enough = 0.015;
+
 template<int D>
 double count_cells(const Case& the_case) {
     IdCounter ids;
@@ -32,20 +34,27 @@ double count_at(const std::string& name, double refinement) {
     return the_case.dimension == 2 ? count_cells<2>(the_case) : count_cells<3>(the_case);
 }
 
-/// The count is a staircase in the refinement (divisions and layers are whole): secant steps, then the best one seen.
+/// The count is a staircase in the refinement, as divisions and layers are whole: secant steps first, then a scan
+/// around the best for what comes closest.
 double tune(const std::string& name, double wanted, double guess) {
-    const double power = experiment_at(name, 1).dimension;
+    const double power = 1.0 / experiment_at(name, 1).dimension;
     double best = guess;
     double best_error = 1e300;
-    double refinement = guess;
-    for (int step = 0; step < 8 && best_error > 0.01; ++step) {
+    const auto attempt = [&](double refinement) {
         const double count = count_at(name, refinement);
-        const double error = std::abs(count / wanted - 1);
-        if (error < best_error) {
+        if (std::abs(count / wanted - 1) < best_error) {
+            best_error = std::abs(count / wanted - 1);
             best = refinement;
-            best_error = error;
         }
-        refinement *= std::pow(wanted / count, 1 / power * (step < 4 ? 1.0 : 0.6));
+        return count;
+    };
+    for (int step = 0; step < 4 && best_error > good_enough; ++step) {
+        guess *= std::pow(wanted / attempt(guess), power);
+    }
+    const double centre = best;
+    for (int i = 1; i <= 8 && best_error > good_enough; ++i) {
+        attempt(centre * (1 + 0.01 * i));
+        attempt(centre * (1 - 0.01 * i));
     }
     return best;
 }

@@ -42,9 +42,9 @@ void parallel_for(std::size_t count, std::size_t grain,
     std::atomic<std::size_t> next{0};
     std::mutex failure_lock;
     std::exception_ptr failure;
-    std::size_t failed_piece = pieces;
+    std::atomic<std::size_t> failed_piece{pieces}; // pieces after it need not run: they could not fail first
     const auto work = [&] {
-        for (std::size_t k = next++; k < pieces; k = next++) {
+        for (std::size_t k = next++; k < failed_piece; k = next++) {
             try {
                 run_piece(k);
             } catch (...) {

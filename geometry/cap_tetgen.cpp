@@ -6,9 +6,9 @@
 
 #include "child_process.h"
 #include "hole_seeds.h"
-#include "vector_algebra.h"
 
 #include "slabhull/core/error.h"
+#include "slabhull/geometry/embedding.h"
 
 #include <fmt/format.h>
 #include <tetgen.h>
@@ -178,25 +178,12 @@ bool receive_mesh(const Receive& receive, Heading& heading, CapMesh<3>& mesh) {
     return fill(mesh.points) && fill(mesh.cells) && fill(mesh.neighbors);
 }
 
-/// What would lead astray even the search for holes. The rest is for the child to survive.
-void require_readable(const Surface<3>& surface) {
-    if (surface.points.size() > std::numeric_limits<int>::max() ||
-        surface.facets.size() > std::numeric_limits<int>::max()) {
-        throw LimitError{fmt::format("the 3D mesher takes 2^31 - 1 points and facets at most, not {} and {}",
+/// TetGen's indices are ints.
+void require_fits(const Surface<3>& surface) {
+    constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+    if (surface.points.size() > most || surface.facets.size() > most / 3) {
+        throw LimitError{fmt::format("the 3D mesher cannot number {} points and {} facets",
                                      surface.points.size(), surface.facets.size())};
-    }
-    if (surface.facets.empty()) {
-        throw GeometryError{"cannot mesh inside a surface without facets"};
-    }
-    for (const Facet<3>& facet : surface.facets) {
-        for (const Index v : facet) {
-            if (v >= surface.points.size() || !detail::all_finite(surface.points[v])) {
-                throw GeometryError{fmt::format("cannot mesh inside a surface whose vertex {} {}", v,
-                                                v < surface.points.size()
-                                                    ? "has a coordinate that is no finite number"
-                                                    : "does not exist")};
-            }
-        }
     }
 }
 
@@ -216,7 +203,8 @@ void require_sane(const CapOptions& options) {
 template<>
 CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options) {
     require_sane(options);
-    require_readable(surface);
+    require_fits(surface);
+    require_domain_boundary(surface, {}, false); // TetGen crashes, or never ends, on anything else
     const std::vector<Point<3>> holes = hole_seeds(surface);
     const SizeField<3> size{surface.points, boundary_spacing<3>(surface.points, surface.facets),
                             options.grading};

@@ -20,10 +20,11 @@ using Receive = std::function<bool(void* bytes, std::size_t size)>;
 
 /// Runs `job` in a forked copy of this process, whose crash costs nothing: it may read all memory of the
 /// caller, and what it writes to memory or prints is lost. It has one thread, so it must not start parallel
-/// loops. `receive` runs here meanwhile and returns whether it got all. The bytes go through a pipe straight
-/// to where the caller wants them, so that no copy is held in between. The child dies with the calling
-/// thread, by Ctrl-C too. Throws GeometryError when the system gives no pipe or process; what `receive`
-/// throws, when the child has ended.
+/// loops. `receive` runs here meanwhile and returns whether it got all. The bytes go through a pipe
+/// straight to where the caller wants them, so that no copy is held in between.
+/// The child dies with the calling thread, by Ctrl-C too.
+/// Throws GeometryError when the system gives no pipe or process; what `receive` throws, when the child has
+/// ended.
 ChildEnd run_in_child(const std::function<void(const Send&)>& job,
                       const std::function<bool(const Receive&)>& receive);
 

@@ -37,8 +37,9 @@ int line_passes(const FacetCorners<3>& facet, const Point<3>& p);
 
 } // namespace detail
 
-/// How often the facets for which counts(facet) surround p, which is on none of them. Exact: signed crossings
-/// of a ray. Cost: that of finding the boxes along the ray.
+/// How often the facets for which counts(facet) surround p, which is on none of them.
+/// Exact: signed crossings of a ray.
+/// Cost: that of finding the boxes along the ray.
 template<int D, class Counts>
 int winding_number(const Surface<D>& surface, const BoxTree<D>& tree, const Point<D>& p, Counts&& counts) {
     Box<D> ray{p, p};

@@ -70,7 +70,8 @@ class Refiner {
 public:
     Refiner(CapMesh<2>& mesh, const CapSpacing& field, double min_angle)
         : mesh_{mesh}, field_{field}, given_{mesh.points.size()}, cavity_{mesh}, star_{mesh},
-          least_sine_{std::sin(radians(min_angle))}, aimed_sine_{std::sin(radians(aim(min_angle)))},
+          least_sine_{std::sin(radians(std::min(min_angle, ending)))}, aimed_sine_{std::sin(
+                                                                           radians(aim(min_angle)))},
           slenderest_{1 / std::tan(radians(angle_reserve * aim(min_angle) / 2))} {}
 
     void run() {

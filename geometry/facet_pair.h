@@ -34,7 +34,8 @@ struct FacetPair {
 template<int D>
 FacetPair<D> pair_of_facets(const Surface<D>& surface, Index first, Index second);
 
-/// Boxes of the facets; that of a facet without extent, or with a coordinate that is no finite number, is empty.
+/// Boxes of the facets; that of a facet without extent, or with a coordinate that is no finite number, is
+/// empty.
 template<int D>
 Array<Box<D>> facet_boxes(const Surface<D>& surface);
 

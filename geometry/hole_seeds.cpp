@@ -76,11 +76,7 @@ private:
 /// Distance from a facet to the next one along a unit vector. Short rays come first: they meet few boxes.
 double SeedSearch::reach(Index facet, const Point<3>& from, const Point<3>& direction) const {
     const FacetCorners<3> corners = corners_of_facet(surface_, facet);
-    const double edge = detail::norm(minus(corners[1], corners[0]));
-    if (edge == 0) {
-        return unreached;
-    }
-    for (double length = edge; length < 2 * diameter_; length *= 2) {
+    for (double length = detail::norm(minus(corners[1], corners[0])); length < 2 * diameter_; length *= 2) {
         Box<3> along;
         along.include(from);
         along.include(plus(from, times(length, direction)));
@@ -131,7 +127,7 @@ Point<3> SeedSearch::inside(Index part, const std::vector<Index>& facets) const 
         }
     }
     throw GeometryError{fmt::format("found no point inside the body whose boundary has a vertex at {}; "
-                                    "the surface may cross itself there",
+                                    "it may be too thin",
                                     place_in_words(surface_.points[surface_.facets[facets[0]][0]]))};
 }
 
@@ -139,12 +135,6 @@ Point<3> SeedSearch::inside(Index part, const std::vector<Index>& facets) const 
 
 std::vector<Point<3>> hole_seeds(const Surface<3>& surface) {
     const Adjacency<2> adjacency = build_adjacency<2>(surface.facets, surface.points.size());
-    if (!adjacency.defects.empty()) {
-        throw GeometryError{fmt::format(
-            "cannot mesh inside a surface that is not closed and oriented: {} edges are "
-            "faulty, the first at {}",
-            adjacency.defects.size(), place_in_words(surface.points[adjacency.defects[0].facet[0]]))};
-    }
     const Components parts = find_components(surface, adjacency);
     std::vector<std::vector<Index>> facets(parts.count());
     for (Index f = 0; f < surface.facets.size(); ++f) {

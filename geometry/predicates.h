@@ -6,7 +6,8 @@
 #include <array>
 
 /// Geometric decisions without rounding: filtered floating point first, exact arithmetic when that cannot
-/// tell. Needs: finite coordinates. CGAL's kernel stays behind predicates.cpp.
+/// tell.
+/// Needs: finite coordinates. CGAL's kernel stays behind predicates.cpp.
 namespace slabhull::exact {
 
 using Segment2 = std::array<Point<2>, 2>;

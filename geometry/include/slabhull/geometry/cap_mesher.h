@@ -24,15 +24,20 @@ struct CapMesh {
     Array<Neighbors<D>> neighbors; ///< no_index across the boundary
 };
 
-/// Meshes the domain bounded by `surface`, whose facets all come back untouched, with nothing added on them.
+/// Meshes the domain bounded by `surface`, whose facets all come back untouched, with nothing added on
+/// them.
 /// D = 3: TetGen in a child process, so that its crashes are ours to report. D = 2: a constrained Delaunay
-/// triangulation (CGAL) refined without ever splitting a boundary edge.
-/// Needs: a closed, outward oriented, embedded surface (see require_domain_boundary()) in which every point
-/// is used. The spacing inside is that of a SizeField made from the boundary's own spacing and
-/// `options.grading`: the mean edge is about as long. Throws GeometryError when the mesher fails or its
-/// boundary differs from the surface; it names the facets. UsageError for a radius_edge outside [1, 100] or a
-/// min_dihedral outside [0, 20]. Cost (D = 3): about 5 microseconds per tetrahedron, and some 300 bytes of
-/// each in the child. Deterministic.
+/// triangulation (CGAL) refined without ever splitting a boundary edge. The spacing inside is that of a
+/// SizeField made from the boundary's own spacing and `options.grading`: the mean edge is about as long.
+/// Cells on the boundary are as large as its facets, whatever is asked for.
+/// Needs: the boundary of a domain, see require_domain_boundary(); call that first, with the user's names
+/// for the facets. For D = 3 it is called again, at 2 % of the time: TetGen crashes, or never ends, on
+/// anything else.
+/// Throws GeometryError when the mesher fails or its boundary differs from the surface; it names the
+/// facets.
+/// UsageError for a radius_edge outside [1, 100] or a min_dihedral outside [0, 20] (D = 3).
+/// Cost (D = 3): about 6 microseconds per tetrahedron, and some 300 bytes of each in the child.
+/// Deterministic.
 template<int D>
 CapMesh<D> mesh_cap(const Surface<D>& surface, const CapOptions& options);
 
@@ -43,9 +48,10 @@ CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options);
 
 /// Proves that a cap mesh fills the inside of a surface: its points begin with the surface's, bit for bit;
 /// its boundary facets are the surface's, orientation included; every cell is positively oriented (exactly)
-/// and opposite to its neighbours across the facets they share; every point is used. Together these leave no
-/// overlap and no gap when the surface bounds a domain. Throws GeometryError naming what is missing, added,
-/// inverted or unmatched. Cost: linear; about 2 % of the meshing.
+/// and opposite to its neighbours across the facets they share; every point is used. Together these leave
+/// no overlap and no gap when the surface bounds a domain.
+/// Throws GeometryError naming what is missing, added, inverted or unmatched.
+/// Cost: linear; about 2 % of the meshing.
 template<int D>
 void verify_cap(const CapMesh<D>& mesh, const Surface<D>& surface);
 

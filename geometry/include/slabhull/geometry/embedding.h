@@ -20,12 +20,14 @@ struct Crossing {
     Point<D> near{};         ///< a point close to where they meet
 };
 
-/// All pairs of crossing facets, sorted; decided exactly. D = 2: segments, D = 3: triangles. When there are
-/// more than `limit`, some of them. Touching, overlapping and folded (two facets on the same side of a shared
-/// edge) pairs count. Coincident vertices with different numbers are seen as touching. A facet without extent
-/// is paired with itself only. Needs: facets that refer to points of the surface. Cost: near-linear for
-/// facets of any sizes whose boxes meet few others; 1.5 million triangles/s on one thread. The result does
-/// not depend on the number of threads.
+/// All pairs of crossing facets, sorted; decided exactly. D = 2: segments, D = 3: triangles.
+/// When there are more than `limit`, some of them. Touching, overlapping and folded (two facets on the same
+/// side of a shared edge) pairs count. Coincident vertices with different numbers are seen as touching. A
+/// facet without extent is paired with itself only.
+/// Needs: facets that refer to points of the surface.
+/// Cost: near-linear for facets of any sizes whose boxes meet few others; 1.5 million triangles/s on one
+/// thread.
+/// The result does not depend on the number of threads.
 template<int D>
 std::vector<Crossing<D>> find_crossings(const Surface<D>& surface, std::size_t limit = 100);
 
@@ -35,11 +37,11 @@ struct FacetNaming {
     std::vector<std::int64_t> numbers; ///< the user's number of each facet; empty: counted from 0
 };
 
-/// Throws unless `surface` bounds a domain: finite coordinates, every vertex used, every ridge in exactly two
-/// facets of opposite orientation, one fan of facets at each vertex, no crossing facets, and components
-/// nested so that the domain lies on the inner side of every one (a body outside the box is refused). The
-/// error is a GeometryError, or an InputError when `is_input`; it names facets by number and patch. Cost:
-/// that of find_crossings() and of adjacency; nesting adds one ray per component.
+/// Throws unless `surface` bounds a domain: finite coordinates, every vertex used, every ridge in exactly
+/// two facets of opposite orientation, one fan of facets at each vertex, no crossing facets, and components
+/// nested so that the domain lies on the inner side of every one (a body outside the box is refused).
+/// The error is a GeometryError, or an InputError when `is_input`; it names facets by number and patch.
+/// Cost: that of find_crossings() and of adjacency; nesting adds one ray per component.
 template<int D>
 void require_domain_boundary(const Surface<D>& surface, const FacetNaming& naming, bool is_input);
 

@@ -149,7 +149,7 @@ struct HullReport : CheckResult {
 
 /// The whole check of a hull. It recomputes from connectivity and coordinates and only compares with the
 /// claims. Checks build on each other: where one finds the ground missing, those above it are listed as
-/// skipped. Cost: near-linear; about 40 extra bytes per cell (60 with Betti numbers). The same report for any
+/// skipped. Cost: near-linear; about 50 extra bytes per cell (95 with Betti numbers). The same report for any
 /// number of threads.
 template<int D>
 HullReport check_hull(const HullColumns<D>& hull, const CheckOptions& options = {});
