@@ -4,6 +4,7 @@
 #include "column_stream.h"
 #include "vtk_names.h"
 
+#include <algorithm>
 #include <bit>
 #include <fmt/format.h>
 #include <limits>
@@ -130,6 +131,24 @@ public:
         arrays_.push_back(std::move(array));
     }
 
+    /// meshio replaces offsets by those of its base64 copy one after the other, and finds the next array by its
+    /// offset: one that equals a replaced offset leads it astray.
+    bool leads_meshio_astray() const {
+        std::vector<std::uint64_t> replaced;
+        std::uint64_t offset = 0;
+        std::uint64_t offset_in_copy = 0;
+        for (const AppendedArray& array : arrays_) {
+            if (std::find(replaced.begin(), replaced.end(), offset) != replaced.end()) {
+                return true;
+            }
+            replaced.push_back(offset_in_copy);
+            const std::uint64_t bytes = sizeof(std::uint64_t) + array.bytes();
+            offset += bytes;
+            offset_in_copy += (bytes + 2) / 3 * 4;
+        }
+        return false;
+    }
+
     void write(AtomicFile& file) const {
         file.write(xml_);
         file.write("</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
@@ -171,11 +190,13 @@ void add_cells(VtuLayout& layout, const MeshColumns& mesh) {
     layout.close("Cells");
 }
 
-} // namespace
-
-void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh) {
+/// With a field array of `padding` bytes in front, where that is not 0.
+VtuLayout lay_out(const MeshColumns& mesh, std::size_t padding) {
     VtuLayout layout;
     layout.open("FieldData");
+    if (padding > 0) {
+        layout.add(appended<std::uint8_t>("padding", Column<std::int64_t>::constant(padding, 0)), true);
+    }
     for (const DataArray& array : mesh.field_data) {
         layout.add(appended(array), true);
     }
@@ -189,7 +210,17 @@ void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh) {
     layout.close("Points");
     add_cells(layout, mesh);
     layout.close("Piece");
+    return layout;
+}
 
+} // namespace
+
+void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh) {
+    std::size_t padding = 0;
+    VtuLayout layout = lay_out(mesh, padding);
+    while (layout.leads_meshio_astray()) {
+        layout = lay_out(mesh, ++padding);
+    }
     AtomicFile file{path};
     file.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
                "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");

@@ -202,7 +202,7 @@ class Meshes(ProgramTest):
         self.refused(self.mesh(SPLIT_SQUARE.replace("6 2 2 5 1 1 3 4", "6 2 2 5 1 1 3 9")), INPUT, "square.msh", "9")
 
     def test_a_torn_file(self):
-        for length in (0, 10, 60, 150, 260, len(SPLIT_SQUARE) - 20):
+        for length in (0, 10, 60, 150, 200, len(SPLIT_SQUARE) - 20):
             with self.subTest(length):
                 self.refused(self.mesh(SPLIT_SQUARE[:length]), INPUT, "square.msh")
 
