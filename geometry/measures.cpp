@@ -81,9 +81,9 @@ struct CosineRange {
         smallest = std::min(smallest, s);
         largest = std::max(largest, s);
     }
-    void add(const CosineRange& other) {
-        add(other.smallest);
-        add(other.largest);
+    void add(const CosineRange& other) { // which may be empty: smallest 1, largest -1
+        smallest = std::min(smallest, other.smallest);
+        largest = std::max(largest, other.largest);
     }
     /// The smallest cosine belongs to the largest angle.
     AngleRange angles() const { return {degrees(largest), degrees(smallest)}; }

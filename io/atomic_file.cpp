@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace slabhull::io {
 
@@ -68,13 +69,18 @@ void AtomicFile::write(const void* bytes, std::size_t size) {
     }
 }
 
-void AtomicFile::commit() {
-    if (::fdatasync(descriptor_) != 0) {
+void AtomicFile::finish() {
+    if (descriptor_ < 0) {
+        return;
+    }
+    if (::fdatasync(descriptor_) != 0 || ::close(std::exchange(descriptor_, -1)) != 0) {
         fail("cannot be written");
     }
-    const int closed = ::close(descriptor_);
-    descriptor_ = -1;
-    if (closed != 0 || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+}
+
+void AtomicFile::commit() {
+    finish();
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
         fail("cannot be put in place");
     }
     temporary_.clear();

@@ -6,6 +6,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <limits>
 #include <set>
@@ -46,8 +47,8 @@ Box box_of(const Column<double>& points) {
 
 class MshWriter {
 public:
-    MshWriter(const std::filesystem::path& path, const MeshColumns& mesh)
-        : mesh_{mesh}, groups_{groups_of(mesh)}, file_{path} {}
+    MshWriter(AtomicFile& file, const MeshColumns& mesh)
+        : mesh_{mesh}, groups_{groups_of(mesh)}, entities_{entities_of(groups_)}, file_{file} {}
 
     void write() {
         write_format();
@@ -61,7 +62,6 @@ public:
         for (const DataColumn& data : mesh_.cell_data) {
             write_data("ElementData", data);
         }
-        file_.commit();
     }
 
 private:
@@ -82,6 +82,22 @@ private:
             throw std::invalid_argument{"write_msh: the groups must hold all cells"};
         }
         return mesh.groups;
+    }
+
+    /// The number of each entity's physical group; groups with the same number share an entity.
+    static std::vector<PatchNumber> entities_of(const std::vector<Group>& groups) {
+        std::vector<PatchNumber> entities;
+        for (const Group& group : groups) {
+            if (std::find(entities.begin(), entities.end(), group.number) == entities.end()) {
+                entities.push_back(group.number);
+            }
+        }
+        return entities;
+    }
+
+    std::size_t entity_of(const Group& group) const {
+        return 1 + static_cast<std::size_t>(std::find(entities_.begin(), entities_.end(), group.number) -
+                                            entities_.begin());
     }
 
     template<class T>
@@ -110,19 +126,19 @@ private:
         }
     }
 
-    /// A discrete entity per group, numbered from 1, in the box of the whole mesh.
+    /// The discrete entities, numbered from 1, in the box of the whole mesh.
     void write_entities() {
         file_.write("$Entities\n");
         for (int dimension = 0; dimension <= 3; ++dimension) {
-            put_size(dimension == mesh_.dimension ? groups_.size() : 0);
+            put_size(dimension == mesh_.dimension ? entities_.size() : 0);
         }
         const Box box = box_of(mesh_.points);
-        for (std::size_t i = 0; i < groups_.size(); ++i) {
+        for (std::size_t i = 0; i < entities_.size(); ++i) {
             put_int(i + 1);
             put_value(box);
-            put_size(groups_[i].number > 0 ? 1 : 0);
-            if (groups_[i].number > 0) {
-                put_value(groups_[i].number);
+            put_size(entities_[i] > 0 ? 1 : 0);
+            if (entities_[i] > 0) {
+                put_value(entities_[i]);
             }
             put_size(0); // no bounding entities
         }
@@ -163,9 +179,9 @@ private:
         file_.write("$Elements\n");
         put_section_head(static_cast<std::size_t>(std::count_if(groups_.begin(), groups_.end(), filled)),
                          mesh_.cells.rows());
-        for (std::size_t i = 0; i < groups_.size(); ++i) {
-            if (filled(groups_[i])) {
-                write_block(i + 1, groups_[i]);
+        for (const Group& group : groups_) {
+            if (filled(group)) {
+                write_block(entity_of(group), group);
             }
         }
         file_.write("\n$EndElements\n");
@@ -215,13 +231,18 @@ private:
 
     const MeshColumns& mesh_;
     std::vector<Group> groups_;
-    AtomicFile file_;
+    std::vector<PatchNumber> entities_;
+    AtomicFile& file_;
 };
 
 } // namespace
 
+void write_msh(AtomicFile& file, const MeshColumns& mesh) { MshWriter{file, mesh}.write(); }
+
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh) {
-    MshWriter{path, mesh}.write();
+    AtomicFile file{path};
+    write_msh(file, mesh);
+    file.commit();
 }
 
 } // namespace slabhull::io

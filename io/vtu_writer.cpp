@@ -215,17 +215,21 @@ VtuLayout lay_out(const MeshColumns& mesh, std::size_t padding) {
 
 } // namespace
 
-void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh) {
+void write_vtu(AtomicFile& file, const MeshColumns& mesh) {
     std::size_t padding = 0;
     VtuLayout layout = lay_out(mesh, padding);
     while (layout.leads_meshio_astray()) {
         layout = lay_out(mesh, ++padding);
     }
-    AtomicFile file{path};
     file.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
                "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");
     layout.write(file);
     file.write("\n</AppendedData>\n</VTKFile>\n");
+}
+
+void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh) {
+    AtomicFile file{path};
+    write_vtu(file, mesh);
     file.commit();
 }
 

@@ -22,8 +22,11 @@ struct Spacings {
     double box;
     double time;
 
+    double growth; ///< of the spacing inside the caps, which ends at that of the box
+
+    /// All lengths shrink alike, and so does the growth per unit of distance.
     Spacings divided_by(double refinement) const {
-        return {body / refinement, box / refinement, time / refinement};
+        return {body / refinement, box / refinement, time / refinement, growth / refinement};
     }
 };
 
@@ -32,24 +35,23 @@ struct Experiment {
     const char* title;
     int dimension;
     Spacings spacings; ///< at refinement 1
-    double growth;     ///< of the spacing inside the caps, which ends at that of the box
     std::span<const double> refinement; ///< by level
 };
 
 constexpr std::array circle_levels{0.724, 1.024, 1.398, 2.001, 2.829, 4.022, 5.724, 8.014, 11.514};
 constexpr std::array expanding_circle_levels{0.736, 1.040, 1.405, 2.004, 2.844, 4.043, 5.742, 8.039, 11.478};
-constexpr std::array sphere_levels{1.000, 1.428, 2.012};
+constexpr std::array sphere_levels{0.968, 1.310, 1.820};
 constexpr std::array expanding_sphere_levels{1.000, 1.434, 2.019};
-constexpr std::array ellipsoid_levels{1.192, 1.751, 2.570};
+constexpr std::array ellipsoid_levels{1.137, 1.614, 2.280};
 constexpr std::array tandem_levels{1.162, 1.692, 2.513};
 
 constexpr std::array<Experiment, 6> experiments{{
-    {"circle", "Circle in a square, at rest", 2, {0.15, 0.4, 0.3}, 0.2, circle_levels},
-    {"expanding-circle", "Expanding circle in a square", 2, {0.15, 0.4, 0.3}, 0.2, expanding_circle_levels},
-    {"sphere", "Sphere in a cube, at rest", 3, {0.2, 0.7, 0.5}, 0.2, sphere_levels},
-    {"expanding-sphere", "Expanding sphere in a cube", 3, {0.2, 0.7, 0.5}, 0.2, expanding_sphere_levels},
-    {"ellipsoid", "Ellipsoid turning in a cube", 3, {0.25, 1.0, 0.6}, 0.15, ellipsoid_levels},
-    {"tandem-ellipsoids", "Two ellipsoids turning against each other in a cube", 3, {0.25, 1.0, 0.6}, 0.15, tandem_levels},
+    {"circle", "Circle in a square, at rest", 2, {0.15, 0.4, 0.3, 0.25}, circle_levels},
+    {"expanding-circle", "Expanding circle in a square", 2, {0.15, 0.4, 0.3, 0.25}, expanding_circle_levels},
+    {"sphere", "Sphere in a cube, at rest", 3, {0.2, 0.8, 0.5, 0.12}, sphere_levels},
+    {"expanding-sphere", "Expanding sphere in a cube", 3, {0.2, 0.8, 0.5, 0.12}, expanding_sphere_levels},
+    {"ellipsoid", "Ellipsoid turning in a cube", 3, {0.3, 1.2, 0.6, 0.1}, ellipsoid_levels},
+    {"tandem-ellipsoids", "Two ellipsoids turning against each other in a cube", 3, {0.3, 1.2, 0.6, 0.1}, tandem_levels},
 }};
 
 const Experiment& find_experiment(const std::string& name) {
@@ -117,7 +119,7 @@ Case experiment_at(const std::string& name, double refinement) {
     result.split = result.dimension == 3 ? Split::C : Split::centre;
     result.layers = std::max(1, static_cast<int>(std::lround(1 / at.time)));
     result.cap_size = at.box;
-    result.cap_growth = experiment.growth;
+    result.cap_growth = at.growth;
 
     InitialBodies bodies;
     if (name == "ellipsoid") {

@@ -81,7 +81,7 @@ MeshColumns mesh_columns(const Hull<D>& hull) {
 }
 
 template<int D>
-void write_hull_vtu(const std::filesystem::path& path, const Hull<D>& hull) {
+void write_hull_vtu(io::AtomicFile& file, const Hull<D>& hull) {
     MeshColumns mesh = mesh_columns(hull);
     const std::size_t cells = hull.cells.size();
     const Array<Index> cell = a_cell_of_each_point(hull);
@@ -107,7 +107,7 @@ void write_hull_vtu(const std::filesystem::path& path, const Hull<D>& hull) {
                        number_field("dimension", {D}),
                        number_field("patch_number", std::move(numbers)),
                        {"patch_name", 1, std::move(names)}};
-    io::write_vtu(path, mesh);
+    io::write_vtu(file, mesh);
 }
 
 /// Runs of cells of one region or patch, in cell order.
@@ -135,7 +135,7 @@ std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
 }
 
 template<int D>
-void write_hull_msh(const std::filesystem::path& path, const Hull<D>& hull) {
+void write_hull_msh(io::AtomicFile& file, const Hull<D>& hull) {
     MeshColumns mesh = mesh_columns(hull);
     mesh.groups = groups_of(hull);
     if constexpr (D == 3) {
@@ -145,7 +145,7 @@ void write_hull_msh(const std::filesystem::path& path, const Hull<D>& hull) {
     mesh.point_data.push_back({"track_id", Scalar::int64, ids(hull.track_ids)});
     // Element tags count from 1.
     mesh.cell_data = {{"neighbor", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors}, 1)}};
-    io::write_msh(path, mesh);
+    io::write_msh(file, mesh);
 }
 
 std::size_t row_count(const DataArray& array) {
@@ -278,16 +278,16 @@ Column<std::int64_t> optional_column(const Array<std::int64_t>& values, int comp
 } // namespace
 
 template<int D>
-void write_hull(const std::filesystem::path& path, const Hull<D>& hull, const std::string& format) {
+void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& format) {
     if (format == "msh") {
-        write_hull_msh(path, hull);
+        write_hull_msh(file, hull);
     } else {
-        write_hull_vtu(path, hull);
+        write_hull_vtu(file, hull);
     }
 }
 
 template<int D>
-void write_cap(const std::filesystem::path& path, const SpatialMesh<D>& cap, double time) {
+void write_cap(io::AtomicFile& file, const SpatialMesh<D>& cap, double time) {
     MeshColumns mesh;
     mesh.dimension = D;
     mesh.points = first_three<D>(cap.points);
@@ -295,7 +295,7 @@ void write_cap(const std::filesystem::path& path, const SpatialMesh<D>& cap, dou
     mesh.point_data = {{"vertex_id", Scalar::int64, ids(cap.vertex_ids)},
                        {"track_id", Scalar::int64, ids(cap.track_ids)}};
     mesh.field_data = {{"time", 1, Array<double>{time}}, number_field("dimension", {D})};
-    io::write_vtu(path, mesh);
+    io::write_vtu(file, mesh);
 }
 
 MeshKind kind_of(const io::Soup& soup) {
@@ -362,10 +362,10 @@ MeshArrays<D> mesh_of_soup(const io::Soup& soup) {
     return mesh;
 }
 
-template void write_hull<2>(const std::filesystem::path&, const Hull<2>&, const std::string&);
-template void write_hull<3>(const std::filesystem::path&, const Hull<3>&, const std::string&);
-template void write_cap<2>(const std::filesystem::path&, const SpatialMesh<2>&, double);
-template void write_cap<3>(const std::filesystem::path&, const SpatialMesh<3>&, double);
+template void write_hull<2>(io::AtomicFile&, const Hull<2>&, const std::string&);
+template void write_hull<3>(io::AtomicFile&, const Hull<3>&, const std::string&);
+template void write_cap<2>(io::AtomicFile&, const SpatialMesh<2>&, double);
+template void write_cap<3>(io::AtomicFile&, const SpatialMesh<3>&, double);
 template struct HullArrays<2>;
 template struct HullArrays<3>;
 template HullArrays<2> hull_of_soup<2>(const io::Soup&);

@@ -11,6 +11,8 @@
 #include "slabhull/slab/slab.h"
 
 #include <fmt/format.h>
+#include <future>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 namespace slabhull {
@@ -52,6 +54,18 @@ void make_directory(const std::filesystem::path& directory) {
     }
 }
 
+/// The files of a slab while they are being written. Without commit they vanish.
+struct SlabFiles {
+    std::vector<std::filesystem::path> paths;
+    std::vector<std::unique_ptr<io::AtomicFile>> open;
+    std::future<void> written; ///< last, to be waited for before the files go
+
+    void add(const std::filesystem::path& path) {
+        open.push_back(std::make_unique<io::AtomicFile>(path));
+        paths.push_back(path);
+    }
+};
+
 template<int D>
 class Runner {
 public:
@@ -84,30 +98,47 @@ private:
                            static_cast<double>(number) / case_.slabs);
         StageClock clock;
         Slab<D> slab = build_slab<D>(initial, number, case_.level_times(number), settings_, ids_, clock);
+        SlabFiles files;
+        begin_writing(slab, number, files); // the disk is slow: it works while the hull is checked
         const HullReport checked = check_hull<D>(columns_of(slab.hull));
         clock.book("checking");
         if (!checked.clean()) {
             throw GeometryError(fmt::format("the hull of slab {} has {} defects and was not written:\n{}", number,
                                             checked.total(), findings_as_text(checked)));
         }
-        write_slab(slab, number);
+        commit(files);
+        result_.cells += slab.hull.cells.size();
+        result_.points += slab.hull.points.size();
         clock.book("writing");
         report_slab(slab, checked, clock);
         return std::move(slab.terminating);
     }
 
-    void write_slab(const Slab<D>& slab, int number) {
+    void begin_writing(const Slab<D>& slab, int number, SlabFiles& files) {
         make_directory(case_.directory);
         for (const std::string& format : case_.formats) {
-            const auto path = case_.directory / fmt::format("slab_{:04}.{}", number, format);
-            write_hull(path, slab.hull, format);
-            result_.files.push_back(path);
+            files.add(case_.directory / fmt::format("slab_{:04}.{}", number, format));
         }
-        const auto path = case_.directory / fmt::format("cap_{:04}.vtu", number + 1);
-        write_cap(path, slab.terminating, slab.hull.time[1]);
-        result_.files.push_back(path);
-        result_.cells += slab.hull.cells.size();
-        result_.points += slab.hull.points.size();
+        files.add(case_.directory / fmt::format("cap_{:04}.vtu", number + 1));
+        files.written = std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred,
+                                   [this, &slab, &files] { write(slab, files); });
+    }
+
+    void write(const Slab<D>& slab, SlabFiles& files) const {
+        for (std::size_t i = 0; i < case_.formats.size(); ++i) {
+            write_hull(*files.open[i], slab.hull, case_.formats[i]);
+            files.open[i]->finish();
+        }
+        write_cap(*files.open.back(), slab.terminating, slab.hull.time[1]);
+        files.open.back()->finish();
+    }
+
+    void commit(SlabFiles& files) {
+        files.written.get();
+        for (std::size_t i = 0; i < files.open.size(); ++i) {
+            files.open[i]->commit();
+            result_.files.push_back(files.paths[i]);
+        }
     }
 
     void report_initial(const SpatialMesh<D>& cap, const StageClock& clock) {

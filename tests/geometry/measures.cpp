@@ -251,6 +251,23 @@ TEST_CASE("sums are the same bits for any number of threads, and add up over gro
           alone.angles.smallest);
 }
 
+TEST_CASE("a group without cells in some of the pieces has the angles of its own cells only") {
+    const auto complex = specimens::torus<3>(25); // several pieces
+    Array<Point<4>> points(complex.vertices);
+    std::mt19937 random{5};
+    for (Point<4>& point : points) {
+        for (double& x : point) {
+            x = std::generate_canonical<double, 53>(random);
+        }
+    }
+    std::vector<std::uint8_t> group(complex.cells.size(), 0);
+    group.front() = 1;
+    const auto groups = measure_groups<3>(points, complex.cells, group, 2);
+    const AngleRange own = dihedral_angles<3, 4>(corners_of<3, 4>(complex.cells.front(), points));
+    CHECK(groups[1].angles.smallest == own.smallest);
+    CHECK(groups[1].angles.largest == own.largest);
+}
+
 TEST_CASE("compensation keeps small simplices that stand beside huge ones") {
     // 1e16 + 1 + 1 .. loses every 1 in plain summation.
     Array<Point<2>> points{{0, 0}, {2e16, 0}, {0, 1}, {0, 0}, {2, 0}, {0, 1}};

@@ -21,7 +21,8 @@ public:
 
     void write(const void* bytes, std::size_t size);
     void write(std::string_view text) { write(text.data(), text.size()); }
-    /// Nothing may be written after it.
+    /// Syncs to disk, for a commit() that then only renames. Nothing may be written after it.
+    void finish();
     void commit();
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/io/atomic_file.h"
 #include "slabhull/io/soup.h"
 
 #include <filesystem>
@@ -38,11 +39,14 @@ Soup read_curve(const std::filesystem::path& path);
 /// UInt8, each text ended by a zero byte (meshio opens no file with a string array of VTK's own kind);
 /// read_vtu() gives them back.
 void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh);
-/// MSH 4.1 binary: dense tags from 1, one block of nodes, one of elements per group, `$Entities` and
-/// `$PhysicalNames`; point data as `$NodeData`, cell data as `$ElementData` (components > 1 become name_0,
+/// MSH 4.1 binary: dense tags from 1, one block of nodes, one of elements per group (groups may share a number, and
+/// then an entity), `$Entities` and `$PhysicalNames`; point data as `$NodeData`, cell data as `$ElementData` (components > 1 become name_0,
 /// name_1 ..). Throws LimitError when data have more rows than the format's 32 bits count,
 /// std::invalid_argument when the groups do not hold all cells in order.
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
+/// The same into a file that is the caller's to commit.
+void write_vtu(AtomicFile& file, const MeshColumns& mesh);
+void write_msh(AtomicFile& file, const MeshColumns& mesh);
 /// A small text file, in the same all-or-nothing way.
 void write_text(const std::filesystem::path& path, const std::string& text);
 

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "slabhull/core/array.h"
+#include "slabhull/io/atomic_file.h"
 #include "slabhull/io/soup.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/topology/hull.h"
 #include "slabhull/topology/spatial_mesh.h"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,13 +15,13 @@
 namespace slabhull {
 
 /// Writes a hull in `format`, "vtu" or "msh", with the arrays of docs/formats.md. Streams: no second copy is made.
-/// Throws OutputError; nothing is left under the final name then.
+/// The file is the caller's to commit. Throws OutputError.
 template<int D>
-void write_hull(const std::filesystem::path& path, const Hull<D>& hull, const std::string& format);
+void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& format);
 
-/// Writes a cap as a spatial mesh with ids and tracks.
+/// Writes a cap as a spatial mesh with ids and tracks, as VTU.
 template<int D>
-void write_cap(const std::filesystem::path& path, const SpatialMesh<D>& cap, double time);
+void write_cap(io::AtomicFile& file, const SpatialMesh<D>& cap, double time);
 
 /// What kind of mesh a file holds.
 struct MeshKind {
