@@ -9,6 +9,7 @@
 
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/embedding.h"
+#include "slabhull/geometry/mesh_order.h"
 
 #include <fmt/format.h>
 #include <tetgen.h>
@@ -218,6 +219,9 @@ CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options) {
         throw GeometryError{fmt::format("the 3D mesher, given a surface of {} triangles and {} points, {}",
                                         surface.facets.size(), surface.points.size(),
                                         end_in_words(end, heading))};
+    }
+    if (options.curve_order) {
+        order_along_curve<3>(mesh, surface.points.size());
     }
     verify_cap(mesh, surface);
     return mesh;

@@ -237,6 +237,10 @@ private:
                 table.fail("split", error.what());
             }
         }
+        if (table.has("diagonals")) {
+            case_.diagonals = table.choice<Diagonals>(
+                "diagonals", {{"shape", Diagonals::shape}, {"smallest-id", Diagonals::smallest_id}});
+        }
         table.require_all_known();
     }
 
@@ -256,6 +260,9 @@ private:
             if (!(case_.cap_quality >= 1)) {
                 table.fail("quality", "a radius-edge bound of at least 1");
             }
+        }
+        if (table.has("order")) {
+            case_.cap_curve_order = table.choice<bool>("order", {{"mesher", false}, {"curve", true}});
         }
         table.require_all_known();
     }

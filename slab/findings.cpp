@@ -32,6 +32,7 @@ constexpr std::array<std::string_view, defect_kinds> names{
     "not-closed",
     "inward-orientation",
     "inverted-cell",
+    "self-crossing",
     "no-duration",
     "wrong-slab-time",
     "time-outside-slab",

@@ -40,6 +40,7 @@ Json settings_as_json(const Case& the_case) {
             {"scheme", scheme_name(the_case.trajectory.scheme)},
             {"substeps", the_case.trajectory.substeps},
             {"split", split_name(the_case.split)},
+            {"diagonals", the_case.diagonals == Diagonals::shape ? "shape" : "smallest-id"},
             {"cap_mesher", the_case.dimension == 3 ? "tetgen" : "cdt"},
             {"cap_size", std::isfinite(the_case.cap_size) ? Json(the_case.cap_size) : Json()},
             {"cap_growth", the_case.cap_growth},

@@ -80,6 +80,7 @@ CapOptions cap_options(const Case& the_case) {
     CapOptions options;
     options.grading = {the_case.cap_growth, the_case.cap_size};
     options.radius_edge = the_case.cap_quality;
+    options.curve_order = the_case.cap_curve_order;
     return options;
 }
 
@@ -88,7 +89,7 @@ SlabSettings<D> settings_of(const Case& the_case, const PatchList& patches) {
     SlabSettings<D> settings;
     settings.motion_start = the_case.start;
     settings.trajectory = the_case.trajectory;
-    settings.split = the_case.split;
+    settings.side = {the_case.split, the_case.diagonals};
     settings.cap = cap_options(the_case);
     for (const auto& [patch, spec] : the_case.motions) {
         settings.motions[number_of(patches, patch, "motion")].motion = motion_of<D>(spec, the_case.start);
@@ -120,7 +121,7 @@ Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double
     CapMesh<D> mesh = mesh_cap<D>(sweep.at(sweep.layers()), settings.cap);
     clock.book("cap meshing");
     slab.terminating = terminating_cap<D>(initial, sweep, std::move(mesh), ids);
-    slab.hull = stitch<D>(initial, sweep, slab.terminating, settings.split, ids);
+    slab.hull = stitch<D>(initial, sweep, slab.terminating, settings.side, ids);
     slab.hull.slab = number;
     slab.projected = std::move(sweep.projected);
     clock.book("stitching");

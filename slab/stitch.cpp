@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/stitch.h"
 
+#include "cap_boundary.h"
+#include "prism_choice.h"
+#include "prism_graph.h"
+#include "side_vertices.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
-#include "slabhull/topology/adjacency.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -12,185 +15,128 @@ namespace slabhull {
 
 namespace {
 
-/// The lateral faces of a layer: for each facet and corner, the number of the edge opposite to that corner.
-/// Only D = 3 has centres on them.
-struct LateralEdges {
-    std::vector<std::array<Index, 3>> of_facet;
-    std::vector<std::array<Index, 2>> vertices; ///< ascending
-};
+constexpr std::size_t items_per_piece = 1 << 15;
+constexpr std::size_t prisms_per_piece = 1 << 12;
 
-LateralEdges lateral_edges(const Surface<3>& surface) {
-    struct Corner {
-        std::array<Index, 2> edge;
-        Index facet;
-        Index corner;
-    };
-    std::vector<Corner> corners;
-    corners.reserve(3 * surface.facets.size());
-    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-        const auto& facet = surface.facets[f];
-        for (Index i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax(facet[(i + 1) % 3], facet[(i + 2) % 3]);
-            corners.push_back({{low, high}, static_cast<Index>(f), i});
+template<class Body>
+void for_each_index(std::size_t count, std::size_t grain, const Body& body) {
+    parallel_for(count, grain, [&body](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            body(i);
         }
-    }
-    std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
-        return std::tie(a.edge, a.facet) < std::tie(b.edge, b.facet);
     });
-    LateralEdges edges;
-    edges.of_facet.resize(surface.facets.size());
-    for (const Corner& corner : corners) {
-        if (edges.vertices.empty() || edges.vertices.back() != corner.edge) {
-            edges.vertices.push_back(corner.edge);
-        }
-        edges.of_facet[corner.facet][corner.corner] = static_cast<Index>(edges.vertices.size() - 1);
-    }
-    return edges;
 }
 
-/// Where the vertices of the hull's parts begin.
 template<int D>
-class Layout {
-public:
-    Layout(const SpatialMesh<D>& initial, const Sweep<D>& sweep, Split split, std::size_t lateral_faces)
-        : sweep_{sweep}, boundary_{sweep.surface.points.size()}, points_{points_of(split)},
-          face_centres_{points_.face_centres ? lateral_faces : 0},
-          prism_centres_{points_.prism_centres ? sweep.surface.facets.size() : 0}, side_{initial.points.size()} {}
-
-    std::size_t side_begin() const { return side_; }
-    std::size_t terminating_begin() const {
-        return side_ + sweep_.layers() * (face_centres_ + prism_centres_) + (sweep_.layers() - 1) * boundary_;
-    }
-    /// Hull vertex of a swept vertex on a level.
-    std::size_t vertex(std::size_t level, Index v) const {
-        if (level == 0) {
-            return sweep_.cap_vertex[v];
-        }
-        return level == sweep_.layers() ? terminating_begin() + v : layer_begin(level) - boundary_ + v;
-    }
-    std::size_t face_centre(std::size_t layer, Index edge) const { return layer_begin(layer) + edge; }
-    std::size_t prism_centre(std::size_t layer, std::size_t facet) const {
-        return layer_begin(layer) + face_centres_ + facet;
-    }
-    std::size_t face_centres() const { return face_centres_; }
-    std::size_t prism_centres() const { return prism_centres_; }
-
-private:
-    /// First centre of a layer; the vertices of the level below it come just before.
-    std::size_t layer_begin(std::size_t layer) const {
-        return side_ + layer * (face_centres_ + prism_centres_ + boundary_);
-    }
-
-    const Sweep<D>& sweep_;
-    std::size_t boundary_;
-    SplitPoints points_;
-    std::size_t face_centres_;
-    std::size_t prism_centres_;
-    std::size_t side_;
-};
+Point<D + 1> at_time(const Point<D>& x, double t) {
+    Point<D + 1> point;
+    std::copy(x.begin(), x.end(), point.begin());
+    point[D] = t;
+    return point;
+}
 
 template<int D>
 class Stitcher {
 public:
-    Stitcher(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SpatialMesh<D>& terminating, Split split,
-             IdCounter& ids)
-        : initial_{initial}, sweep_{sweep}, terminating_{terminating}, split_{split}, ids_{ids},
-          edges_{edges_of(sweep.surface)}, layout_{initial, sweep, split, edges_.vertices.size()} {}
+    Stitcher(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SpatialMesh<D>& terminating,
+             const SideOptions& options, IdCounter& ids)
+        : initial_{initial}, sweep_{sweep}, terminating_{terminating}, options_{options}, ids_{ids},
+          recipe_{recipe_of(options.split)}, templates_{templates_of<D>(options.split)},
+          graph_{connect_prisms<D>(sweep.surface, recipe_)}, vertices_{initial.points.size(), sweep, graph_,
+                                                                       recipe_} {}
 
     Hull<D> run() {
         describe();
         place_vertices();
-        place_cells();
-        connect();
+        place_cap_cells(initial_, 0, 0);
+        place_side_cells();
+        place_cap_cells(terminating_, hull_.terminating_begin(), static_cast<Index>(vertices_.end()));
+        join_caps();
         return std::move(hull_);
     }
 
 private:
-    static LateralEdges edges_of(const Surface<D>& surface) {
-        if constexpr (D == 3) {
-            return lateral_edges(surface);
-        } else {
-            return {};
-        }
-    }
+    using Template = PrismTemplate<D>;
 
     void describe() {
         hull_.initial_cells = initial_.cells.size();
         hull_.layers = sweep_.layers();
-        hull_.cells_per_prism = static_cast<std::size_t>(simplices_per_prism(split_));
-        hull_.side_cells = hull_.layers * sweep_.surface.facets.size() * hull_.cells_per_prism;
+        hull_.cells_per_prism = static_cast<std::size_t>(simplices_per_prism(options_.split));
+        hull_.side_cells = hull_.layers * graph_.facets() * hull_.cells_per_prism;
         hull_.facet_patch = sweep_.surface.patch;
         hull_.patches = sweep_.surface.patches;
         hull_.time = {sweep_.times.front(), sweep_.times.back()};
-    }
-
-    static Point<D + 1> at_time(const Point<D>& x, double t) {
-        Point<D + 1> point;
-        std::copy(x.begin(), x.end(), point.begin());
-        point[D] = t;
-        return point;
+        const std::size_t points = vertices_.end() + terminating_.points.size();
+        const std::size_t cells = hull_.terminating_begin() + terminating_.cells.size();
+        checked_index(points, "hull vertices");
+        checked_index(cells, "hull cells");
+        hull_.points.resize(points);
+        hull_.vertex_ids.resize(points);
+        hull_.track_ids.resize(points);
+        hull_.cells.resize(cells);
+        hull_.neighbors.resize(cells);
     }
 
     void place_vertices() {
-        const std::size_t count = layout_.terminating_begin() + terminating_.points.size();
-        checked_index(count, "hull vertices");
-        hull_.points.resize(count);
-        hull_.vertex_ids.resize(count);
-        hull_.track_ids.assign(count, no_track);
-        place_cap(initial_, 0, sweep_.times.front());
-        place_side();
-        place_cap(terminating_, layout_.terminating_begin(), sweep_.times.back());
-    }
-
-    void place_cap(const SpatialMesh<D>& cap, std::size_t begin, double t) {
-        for (std::size_t v = 0; v < cap.points.size(); ++v) {
-            hull_.points[begin + v] = at_time(cap.points[v], t);
-        }
-        std::copy(cap.vertex_ids.begin(), cap.vertex_ids.end(), hull_.vertex_ids.begin() + offset(begin));
-        std::copy(cap.track_ids.begin(), cap.track_ids.end(), hull_.track_ids.begin() + offset(begin));
-    }
-
-    static std::ptrdiff_t offset(std::size_t begin) { return static_cast<std::ptrdiff_t>(begin); }
-
-    void place_side() {
-        const std::size_t begin = layout_.side_begin();
-        const std::size_t end = layout_.terminating_begin();
-        PersistentId id = ids_.take(end - begin);
-        for (std::size_t v = begin; v < end; ++v) {
-            hull_.vertex_ids[v] = id++;
-        }
+        place_cap_vertices(initial_, 0, sweep_.times.front());
+        name_side_vertices();
         for (std::size_t level = 1; level < sweep_.layers(); ++level) {
             place_level(level);
         }
         for (std::size_t layer = 0; layer < sweep_.layers(); ++layer) {
             place_centres(layer);
         }
+        place_cap_vertices(terminating_, vertices_.end(), sweep_.times.back());
+    }
+
+    void place_cap_vertices(const SpatialMesh<D>& cap, std::size_t begin, double t) {
+        for_each_index(cap.points.size(), items_per_piece, [&](std::size_t v) {
+            hull_.points[begin + v] = at_time<D>(cap.points[v], t);
+            hull_.vertex_ids[begin + v] = cap.vertex_ids[v];
+            hull_.track_ids[begin + v] = cap.track_ids[v];
+        });
+    }
+
+    /// New ids; the levels' vertices get their tracks after that.
+    void name_side_vertices() {
+        const std::size_t count = vertices_.end() - vertices_.begin();
+        const PersistentId first = ids_.take(count);
+        for_each_index(count, items_per_piece, [&](std::size_t v) {
+            hull_.vertex_ids[vertices_.begin() + v] = first + static_cast<PersistentId>(v);
+            hull_.track_ids[vertices_.begin() + v] = no_track;
+        });
     }
 
     void place_level(std::size_t level) {
-        for (Index v = 0; v < sweep_.surface.points.size(); ++v) {
-            const std::size_t vertex = layout_.vertex(level, v);
-            hull_.points[vertex] = at_time(sweep_.positions[level][v], sweep_.times[level]);
+        for_each_index(sweep_.cap_vertex.size(), items_per_piece, [&](std::size_t v) {
+            const std::size_t vertex = vertices_.on_level(level, static_cast<Index>(v));
+            hull_.points[vertex] = at_time<D>(sweep_.positions[level][v], sweep_.times[level]);
             hull_.track_ids[vertex] = initial_.track_ids[sweep_.cap_vertex[v]];
-        }
+        });
     }
 
     void place_centres(std::size_t layer) {
-        if (layout_.face_centres() > 0) {
-            for (Index e = 0; e < edges_.vertices.size(); ++e) {
-                hull_.points[layout_.face_centre(layer, e)] = mean_of_column(layer, edges_.vertices[e]);
-            }
+        if (!vertices_.has_face_centres() && !vertices_.has_prism_centres()) {
+            return;
         }
-        if (layout_.prism_centres() > 0) {
-            for (std::size_t f = 0; f < sweep_.surface.facets.size(); ++f) {
-                hull_.points[layout_.prism_centre(layer, f)] = mean_of_column(layer, sweep_.surface.facets[f]);
+        for_each_index(graph_.facets(), prisms_per_piece, [&](std::size_t facet) {
+            const auto& corners = sweep_.surface.facets[facet];
+            if (vertices_.has_prism_centres()) {
+                hull_.points[vertices_.prism_centre(layer, facet)] = mean_of_columns(layer, corners);
             }
-        }
+            for (std::size_t q = 0; q < PrismGraph<D>::quads_of_facet && vertices_.has_face_centres(); ++q) {
+                if (graph_.owns(facet, q) && graph_.is_centred(facet, q)) {
+                    const auto [j, k] = quad_corners<D>(q);
+                    hull_.points[vertices_.face_centre(layer, graph_.quad[facet][q])] =
+                        mean_of_columns(layer, std::array{corners[j], corners[k]});
+                }
+            }
+        });
     }
 
-    /// Mean of the points that `vertices` have below and above a layer.
+    /// Mean of the points that swept vertices have below and above a layer.
     template<std::size_t N>
-    Point<D + 1> mean_of_column(std::size_t layer, const std::array<Index, N>& vertices) const {
+    Point<D + 1> mean_of_columns(std::size_t layer, const std::array<Index, N>& vertices) const {
         Point<D> sum{};
         for (const std::size_t level : {layer, layer + 1}) {
             for (const Index v : vertices) {
@@ -202,84 +148,134 @@ private:
         for (double& coordinate : sum) {
             coordinate /= 2.0 * static_cast<double>(N);
         }
-        return at_time(sum, 0.5 * (sweep_.times[layer] + sweep_.times[layer + 1]));
+        return at_time<D>(sum, 0.5 * (sweep_.times[layer] + sweep_.times[layer + 1]));
     }
 
-    void place_cells() {
-        hull_.cells.resize(hull_.terminating_begin() + terminating_.cells.size());
-        for (std::size_t c = 0; c < initial_.cells.size(); ++c) {
-            hull_.cells[c] = initial_.cells[c];
-            std::swap(hull_.cells[c][0], hull_.cells[c][1]); // the initial cap looks back in time
-        }
-        const std::size_t prisms = sweep_.layers() * sweep_.surface.facets.size();
-        parallel_for(prisms, 4096, [this](std::size_t begin, std::size_t end) {
-            for (std::size_t prism = begin; prism < end; ++prism) {
-                place_prism(prism);
-            }
-        });
-        const auto shift = static_cast<Index>(layout_.terminating_begin());
-        for (std::size_t c = 0; c < terminating_.cells.size(); ++c) {
-            Simplex<D> cell = terminating_.cells[c];
-            for (Index& v : cell) {
-                v += shift;
-            }
-            hull_.cells[hull_.terminating_begin() + c] = cell;
-        }
-    }
-
-    void place_prism(std::size_t prism) {
-        const std::size_t layer = prism / sweep_.surface.facets.size();
-        const std::size_t facet = prism % sweep_.surface.facets.size();
-        const auto points = prism_points(layer, facet);
-        std::array<PersistentId, D> ids;
-        for (std::size_t i = 0; i < D; ++i) {
-            // Tracks order the columns of vertices the same way on every level and in every slab.
-            ids[i] = initial_.track_ids[sweep_.cap_vertex[sweep_.surface.facets[facet][i]]];
-        }
-        std::size_t cell = hull_.initial_cells + prism * hull_.cells_per_prism;
-        for (const auto& local : template_of<D>(split_, ids).cells) {
+    /// Across boundary facets the neighbours stay unset: see join_caps().
+    void place_cap_cells(const SpatialMesh<D>& cap, std::size_t begin, Index first_vertex) {
+        const bool looks_back = begin == 0; // in time, so that its cells turn over
+        const auto first = static_cast<Index>(begin);
+        for_each_index(cap.cells.size(), items_per_piece, [&](std::size_t c) {
+            Simplex<D> cell = cap.cells[c];
+            Neighbors<D> neighbors = cap.neighbors[c];
             for (std::size_t i = 0; i <= D; ++i) {
-                hull_.cells[cell][i] = points[local[i]];
+                cell[i] += first_vertex;
+                neighbors[i] += first;
             }
-            ++cell;
+            if (looks_back) {
+                std::swap(cell[0], cell[1]);
+                std::swap(neighbors[0], neighbors[1]);
+            }
+            hull_.cells[begin + c] = cell;
+            hull_.neighbors[begin + c] = neighbors;
+        });
+    }
+
+    void place_side_cells() {
+        const Array<TrackId> track = swept_tracks();
+        choice_ = choose_templates<D>(options_, graph_, {sweep_, track, vertices_, hull_.points});
+        for_each_index(hull_.layers * graph_.facets(), prisms_per_piece, [this](std::size_t prism) {
+            place_prism(prism / graph_.facets(), prism % graph_.facets());
+        });
+    }
+
+    Array<TrackId> swept_tracks() const {
+        Array<TrackId> track(sweep_.cap_vertex.size());
+        std::transform(sweep_.cap_vertex.begin(), sweep_.cap_vertex.end(), track.begin(),
+                       [this](Index v) { return initial_.track_ids[v]; });
+        return track;
+    }
+
+    void place_prism(std::size_t layer, std::size_t facet) {
+        const Template& filling = template_at(layer, facet);
+        const auto points = vertices_.of_prism(layer, facet);
+        const auto reached = reached_from(layer, facet);
+        const std::size_t first = first_cell(layer, facet);
+        for (std::size_t c = 0; c < filling.cells.size(); ++c) {
+            for (std::size_t i = 0; i <= D; ++i) {
+                hull_.cells[first + c][i] = points[filling.cells[c][i]];
+                hull_.neighbors[first + c][i] = reached[filling.across[c][i]];
+            }
         }
     }
 
-    std::array<Index, PrismPoint<D>::count> prism_points(std::size_t layer, std::size_t facet) const {
-        std::array<Index, PrismPoint<D>::count> points{};
-        const auto put = [&points](int local, std::size_t vertex) {
-            points[static_cast<std::size_t>(local)] = static_cast<Index>(vertex);
-        };
-        for (int i = 0; i < D; ++i) {
-            const Index v = sweep_.surface.facets[facet][static_cast<std::size_t>(i)];
-            put(PrismPoint<D>::bottom(i), layout_.vertex(layer, v));
-            put(PrismPoint<D>::top(i), layout_.vertex(layer + 1, v));
-            if (layout_.face_centres() > 0) {
-                const Index edge = edges_.of_facet[facet][static_cast<std::size_t>(i)];
-                put(PrismPoint<D>::face_centre(i), layout_.face_centre(layer, edge));
-            }
-        }
-        put(PrismPoint<D>::centre, layout_.prism_centre(layer, facet));
-        return points;
+    const Template& template_at(std::size_t layer, std::size_t facet) const {
+        return templates_[choice_(layer, facet)];
     }
 
-    void connect() {
-        Adjacency<D> adjacency = build_adjacency<D>(hull_.cells, hull_.points.size());
-        if (!adjacency.defects.empty()) {
-            throw GeometryError(fmt::format("the caps and the side of the slab from t = {} to {} do not close: {} facets "
-                                            "are not in exactly two simplices",
-                                            hull_.time[0], hull_.time[1], adjacency.defects.size()));
+    std::size_t first_cell(std::size_t layer, std::size_t facet) const {
+        return hull_.initial_cells + (layer * graph_.facets() + facet) * hull_.cells_per_prism;
+    }
+
+    Index cell_in_slot(std::size_t layer, std::size_t facet, std::uint8_t slot) const {
+        return static_cast<Index>(first_cell(layer, facet) + template_at(layer, facet).cell_at[slot]);
+    }
+
+    /// The hull's cells by what PrismTemplate::across says of a prism's facets. Caps stay unset.
+    std::array<Index, Template::outside + Template::slots> reached_from(std::size_t layer,
+                                                                        std::size_t facet) const {
+        std::array<Index, Template::outside + Template::slots> cell;
+        const auto first = static_cast<Index>(first_cell(layer, facet));
+        for (Index c = 0; c < Template::outside; ++c) {
+            cell[c] = first + c;
         }
-        hull_.neighbors = std::move(adjacency.neighbors);
+        Index* const outside = cell.data() + Template::outside;
+        outside[Template::bottom] = layer == 0 ? no_index : cell_in_slot(layer - 1, facet, Template::top);
+        outside[Template::top] =
+            layer + 1 == hull_.layers ? no_index : cell_in_slot(layer + 1, facet, Template::bottom);
+        for (std::size_t face = 0; face < D; ++face) {
+            const auto [entry, turned] = graph_.door[facet][face];
+            const Index across = graph_.across[facet][face];
+            const Template& beyond = template_at(layer, across);
+            const auto first_beyond = static_cast<Index>(first_cell(layer, across));
+            for (std::size_t piece = 0; piece < Template::pieces; ++piece) {
+                const std::size_t there = turned && piece >= 2 ? 5 - piece : piece; // over the other corner
+                outside[Template::lateral(face, piece)] =
+                    first_beyond + beyond.cell_at[Template::lateral(entry, there)];
+            }
+        }
+        return cell;
+    }
+
+    void join_caps() {
+        join_cap(find_boundary_facets(initial_), 0, 0, Template::bottom);
+        join_cap(find_boundary_facets(terminating_), hull_.terminating_begin(), hull_.layers - 1,
+                 Template::top);
+    }
+
+    /// Joins boundary facet f of a cap to the prism over facet f: the cap's boundary facets are the swept
+    /// ones, in order.
+    void join_cap(const Array<CellFacet>& boundary, std::size_t cap_begin, std::size_t layer,
+                  std::uint8_t slot) {
+        if (boundary.size() != graph_.facets()) {
+            throw GeometryError(
+                fmt::format("the caps and the side of the slab from t = {} to {} do not close: a cap has {} "
+                            "boundary facets, the side {}",
+                            hull_.time[0], hull_.time[1], boundary.size(), graph_.facets()));
+        }
+        for (std::size_t f = 0; f < boundary.size(); ++f) {
+            const auto [cap_cell, cap_place] = boundary[f];
+            const Index side_cell = cell_in_slot(layer, f, slot);
+            const auto& across = template_at(layer, f).across[template_at(layer, f).cell_at[slot]];
+            const auto side_place =
+                std::find(across.begin(), across.end(), Template::outside + slot) - across.begin();
+            const std::size_t turned = cap_begin == 0 && cap_place < 2 ? 1u - cap_place : cap_place;
+            hull_.neighbors[cap_begin + cap_cell][turned] = side_cell;
+            hull_.neighbors[side_cell][static_cast<std::size_t>(side_place)] =
+                static_cast<Index>(cap_begin + cap_cell);
+        }
     }
 
     const SpatialMesh<D>& initial_;
     const Sweep<D>& sweep_;
     const SpatialMesh<D>& terminating_;
-    Split split_;
+    const SideOptions& options_;
     IdCounter& ids_;
-    LateralEdges edges_;
-    Layout<D> layout_;
+    const SplitRecipe& recipe_;
+    std::span<const Template> templates_;
+    PrismGraph<D> graph_;
+    SideVertices<D> vertices_;
+    PrismChoice choice_;
     Hull<D> hull_;
 };
 
@@ -308,14 +304,16 @@ SpatialMesh<D> terminating_cap(const SpatialMesh<D>& initial, const Sweep<D>& sw
 }
 
 template<int D>
-Hull<D> stitch(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SpatialMesh<D>& terminating, Split split,
-               IdCounter& ids) {
-    return Stitcher<D>{initial, sweep, terminating, split, ids}.run();
+Hull<D> stitch(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SpatialMesh<D>& terminating,
+               const SideOptions& options, IdCounter& ids) {
+    return Stitcher<D>{initial, sweep, terminating, options, ids}.run();
 }
 
 template SpatialMesh<2> terminating_cap<2>(const SpatialMesh<2>&, const Sweep<2>&, CapMesh<2>&&, IdCounter&);
 template SpatialMesh<3> terminating_cap<3>(const SpatialMesh<3>&, const Sweep<3>&, CapMesh<3>&&, IdCounter&);
-template Hull<2> stitch<2>(const SpatialMesh<2>&, const Sweep<2>&, const SpatialMesh<2>&, Split, IdCounter&);
-template Hull<3> stitch<3>(const SpatialMesh<3>&, const Sweep<3>&, const SpatialMesh<3>&, Split, IdCounter&);
+template Hull<2> stitch<2>(const SpatialMesh<2>&, const Sweep<2>&, const SpatialMesh<2>&, const SideOptions&,
+                           IdCounter&);
+template Hull<3> stitch<3>(const SpatialMesh<3>&, const Sweep<3>&, const SpatialMesh<3>&, const SideOptions&,
+                           IdCounter&);
 
 } // namespace slabhull

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.h"
 
+#include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/io/files.h"
+#include "slabhull/slab/check_embedding.h"
 #include "slabhull/slab/hull_files.h"
 #include "slabhull/slab/report.h"
 
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace slabhull::tools {
 
@@ -18,6 +21,7 @@ struct CheckCommand {
     std::string file;
     bool json = false;
     bool no_betti = false;
+    bool embedding = false;
     int threads = 0;
 };
 
@@ -54,14 +58,28 @@ void print_report(const std::string& file, const MeshReport& report) {
                report.angles.largest);
 }
 
+void print_summary(const EmbeddingSummary& embedding) {
+    fmt::print("  embedding: {} cells in {} pairs whose boxes meet, {} of them decided in rational numbers{}{}\n",
+               embedding.tested_cells, embedding.tested_pairs, embedding.exact_pairs,
+               embedding.caps_proven ? "; caps proven as a whole" : "",
+               embedding.all_listed ? "" : "; stopped, as there are many crossings");
+}
+
 template<class Report>
-int tell(const CheckCommand& command, const Report& report) {
+int tell(const CheckCommand& command, const Report& report,
+         const std::optional<EmbeddingSummary>& embedding = std::nullopt) {
     if (command.json) {
         nlohmann::ordered_json json{{"file", command.file}};
         json.update(as_json(report));
+        if (embedding) {
+            json["embedding"] = as_json(*embedding);
+        }
         fmt::print("{}\n", json.dump(2));
     } else {
         print_report(command.file, report);
+        if (embedding) {
+            print_summary(*embedding);
+        }
         fmt::print("{}{}\n", findings_as_text(report), counted(report.total()));
     }
     return report.clean() ? clean : defects_found;
@@ -80,7 +98,16 @@ int check_soup(const CheckCommand& command, const io::Soup& soup, bool hull) {
     }
     if (hull) {
         const HullArrays<D> arrays = hull_of_soup<D>(soup);
-        return tell(command, check_hull<D>(arrays.columns(), options));
+        const HullColumns<D> columns = arrays.columns();
+        HullReport report = check_hull<D>(columns, options);
+        std::optional<EmbeddingSummary> embedding;
+        if (command.embedding) {
+            embedding = check_embedding<D>(columns, options, report);
+        }
+        return tell(command, report, embedding);
+    }
+    if (command.embedding) {
+        throw UsageError{fmt::format("{}: a mesh in space; --embedding is for the hulls of slabs", command.file)};
     }
     const MeshArrays<D> mesh = mesh_of_soup<D>(soup);
     return tell(command, check_mesh<D>(mesh.points, mesh.cells, options));
@@ -101,6 +128,8 @@ void add_check(CLI::App& program, int& exit_code) {
     app->add_option("FILE", command->file, "A hull or mesh: VTU or MSH")->required();
     app->add_flag("--json", command->json, "One JSON document on stdout");
     app->add_flag("--no-betti", command->no_betti, "Leave out the Betti numbers, the slowest part");
+    app->add_flag("--embedding", command->embedding,
+                  "For a hull: whether it crosses itself, in space or in time between its levels");
     app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")->check(CLI::Range(0, 1024));
     app->footer("Exit code 0: nothing found, 1: defects found.\nExample: slabhull check out/ellipsoid/slab_0000.vtu");
     app->callback([command, &exit_code] { exit_code = check(*command); });

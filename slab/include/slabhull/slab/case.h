@@ -89,9 +89,11 @@ struct Case {
     std::map<std::string, ProjectionSpec> projections;
     TrajectoryOptions trajectory;
     Split split = Split::C;
+    Diagonals diagonals = Diagonals::shape; ///< of splits B and D
     double cap_size = std::numeric_limits<double>::infinity();
     double cap_growth = 0.3;
     double cap_quality = 1.414;
+    bool cap_curve_order = false; ///< `cap.order = "curve"`
 
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};

@@ -44,6 +44,7 @@ enum class Defect {
     not_closed,         ///< sum of normals is not zero to rounding, though every facet is closed
     inward_orientation, ///< the enclosed measure is not positive
     inverted_cell, ///< a cap cell facing the other way in time; in a spatial mesh, a sign other than most
+    self_crossing, ///< two cells meet elsewhere than in the face they share: check_embedding()
     // Time and regions
     no_duration,     ///< all vertices at one time
     wrong_slab_time, ///< no cap at the slab time that is claimed

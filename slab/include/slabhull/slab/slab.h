@@ -16,7 +16,7 @@ struct SlabSettings {
     PatchMotions<D> motions;
     double motion_start = 0; ///< time at which projection surfaces are given
     TrajectoryOptions trajectory;
-    Split split = D == 3 ? Split::C : Split::centre;
+    SideOptions side{D == 3 ? Split::C : Split::centre};
     CapOptions cap;
 };
 

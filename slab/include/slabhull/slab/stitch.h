@@ -24,12 +24,21 @@ template<int D>
 SpatialMesh<D> terminating_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, CapMesh<D>&& mesh,
                                IdCounter& ids);
 
-/// Joins the initial cap, the side made from the sweep and the terminating cap into one closed hull: steps 5 to 7.
-/// Vertices: those of the initial cap, then the side's by layer (levels, face centres, prism centres), then the
-/// terminating cap's. Throws GeometryError when the three do not close (which the caps' own checks make impossible).
-/// Cost: linear.
+/// How the side is split into simplices.
+struct SideOptions {
+    Split split;
+    Diagonals diagonals = Diagonals::shape;
+};
+
+/// Joins the initial cap, the side made from the sweep and the terminating cap into one closed hull: steps 5
+/// to 7. Vertices: those of the initial cap, then the side's by layer (levels, face centres, prism centres),
+/// then the terminating cap's. Adjacency comes by construction: the caps' own, the split's template, and the
+/// boundary's dual graph. Needs: `split` of dimension D; caps with their adjacency, whose boundary facets are
+/// the sweep's, in order. Throws GeometryError when the boundary is not closed or a cap does not fit it
+/// (which the caps' own checks make impossible), LimitError when the hull is too large for its indices. Cost:
+/// near-linear. The result does not depend on the number of threads.
 template<int D>
-Hull<D> stitch(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SpatialMesh<D>& terminating, Split split,
-               IdCounter& ids);
+Hull<D> stitch(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SpatialMesh<D>& terminating,
+               const SideOptions& options, IdCounter& ids);
 
 } // namespace slabhull

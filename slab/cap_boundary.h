@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/array.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+namespace slabhull {
+
+/// Facet `place` of a cell.
+struct CellFacet {
+    Index cell = no_index;
+    std::uint8_t place = 0;
+};
+
+/// Where each of a mesh's boundary facets is in its cells.
+/// Throws GeometryError when the boundary facets are not exactly the cells' facets without a neighbour,
+/// orientation included. Cost: linear.
+template<int D>
+Array<CellFacet> find_boundary_facets(const SpatialMesh<D>& mesh);
+
+extern template Array<CellFacet> find_boundary_facets<2>(const SpatialMesh<2>&);
+extern template Array<CellFacet> find_boundary_facets<3>(const SpatialMesh<3>&);
+
+} // namespace slabhull

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/slab/check.h"
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+
+namespace slabhull {
+
+/// How a hull was examined for crossings. The crossings themselves are findings.
+struct EmbeddingSummary {
+    std::size_t crossings = 0; ///< pairs of cells; at least so many unless `all_listed`
+    bool all_listed = true;
+    bool caps_proven = false;     ///< embedded as a whole, so that only the side's cells were paired
+    std::size_t tested_cells = 0; ///< that were paired
+    std::size_t tested_pairs = 0; ///< of cells whose boxes meet
+    std::size_t exact_pairs = 0;  ///< of those: left to rational arithmetic
+};
+
+/// Checks that a hull crosses itself nowhere, see examine_embedding(), and adds what it finds to `report`,
+/// that of check_hull() for the same columns and options: a self_crossing for each pair of cells, by number,
+/// region or patch, and with the place and time where they meet. Cells without extent are degenerate_cell
+/// there already. Nothing, and a line among the skipped checks, when cells or coordinates are not fit for
+/// geometry.
+template<int D>
+std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, const CheckOptions& options,
+                                                HullReport& report);
+
+/// The summary as a JSON object; keys are those of the struct.
+nlohmann::ordered_json as_json(const EmbeddingSummary& summary);
+
+extern template std::optional<EmbeddingSummary> check_embedding<2>(const HullColumns<2>&, const CheckOptions&,
+                                                                   HullReport&);
+extern template std::optional<EmbeddingSummary> check_embedding<3>(const HullColumns<3>&, const CheckOptions&,
+                                                                   HullReport&);
+
+} // namespace slabhull

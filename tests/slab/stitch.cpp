@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/stitch.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/slab/case.h"
+#include "slabhull/slab/check.h"
+#include "slabhull/slab/initial.h"
+#include "slabhull/slab/slab.h"
+#include "swept_grid.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+using namespace slabhull;
+using specimens::SlabParts;
+
+namespace {
+
+template<int D>
+std::vector<SideOptions> all_sides() {
+    if constexpr (D == 2) {
+        return {{Split::diagonal}, {Split::centre}};
+    } else {
+        return {{Split::A}, {Split::B}, {Split::B, Diagonals::smallest_id},
+                {Split::C}, {Split::D}, {Split::D, Diagonals::smallest_id},
+                {Split::E}};
+    }
+}
+
+/// A slow flow that bends every prism.
+template<int D>
+MotionPointer<D> bending_flow() {
+    if constexpr (D == 2) {
+        return formula_velocity<2>({"0.03*y*y-0.1*t", "0.05*x"}, {});
+    } else {
+        return formula_velocity<3>({"0.03*y*z-0.1*t", "0.05*x", "0.02*x*y"}, {});
+    }
+}
+
+template<int D>
+std::vector<specimens::Grid<D>> family() {
+    return {specimens::full_box<D>(1), specimens::full_box<D>(3), specimens::box_with_body<D>(),
+            specimens::box_with_two_bodies<D>(), specimens::box_with_channel<D>()};
+}
+
+template<int D>
+SlabParts<D> slab_over(const specimens::Grid<D>& grid, std::vector<double> times,
+                       const MotionPointer<D>& motion) {
+    IdCounter ids;
+    auto cap = specimens::as_cap<D>(grid, ids);
+    return specimens::next_slab<D>(std::move(cap), std::move(times), motion, ids);
+}
+
+template<int D>
+Hull<D> stitched(const SlabParts<D>& parts, const SideOptions& side) {
+    IdCounter ids{1'000'000};
+    return stitch<D>(parts.initial, parts.sweep, parts.terminating, side, ids);
+}
+
+template<int D>
+void check_sound(const Hull<D>& hull, const std::vector<std::size_t>& betti) {
+    CheckOptions options;
+    options.betti = true;
+    const HullReport report = check_hull<D>(columns_of(hull), options);
+    for (const Finding& finding : report.findings) {
+        FAIL_CHECK(finding.text);
+    }
+    if (!betti.empty()) {
+        CHECK(report.betti == betti);
+    }
+}
+
+template<int D>
+double smallest_side_angle(const Hull<D>& hull) {
+    double smallest = 180;
+    for (std::size_t c = hull.initial_cells; c < hull.terminating_begin(); ++c) {
+        const auto corners = corners_of<D, D + 1>(hull.cells[c], hull.points);
+        smallest = std::min(smallest, dihedral_angles<D, D + 1>(corners).smallest);
+    }
+    return smallest;
+}
+
+/// The diagonals of the side as pairs of tracks, from the earlier point to the later one, by layer.
+std::set<std::array<std::int64_t, 3>> diagonals_of(const Hull<3>& hull) {
+    std::set<std::array<std::int64_t, 3>> found;
+    for (std::size_t c = hull.initial_cells; c < hull.terminating_begin(); ++c) {
+        for (const Index a : hull.cells[c]) {
+            for (const Index b : hull.cells[c]) {
+                const bool both_tracked = hull.track_ids[a] != no_track && hull.track_ids[b] != no_track;
+                if (both_tracked && hull.track_ids[a] != hull.track_ids[b] &&
+                    hull.points[a][3] < hull.points[b][3]) {
+                    found.insert({hull.layer(c), hull.track_ids[a], hull.track_ids[b]});
+                }
+            }
+        }
+    }
+    return found;
+}
+
+struct QuadDiagonal {
+    std::int64_t start; ///< absolute track of its earlier end
+    double angle = 180; ///< smallest dihedral angle of the tetrahedra that have it
+};
+
+/// By layer and the two tracks of each quadrilateral that has a diagonal, whatever the sign of tracks.
+std::map<std::array<std::int64_t, 3>, QuadDiagonal> quads_of(const Hull<3>& hull) {
+    std::map<std::array<std::int64_t, 3>, QuadDiagonal> quads;
+    for (std::size_t c = hull.initial_cells; c < hull.terminating_begin(); ++c) {
+        const auto corners = corners_of<3, 4>(hull.cells[c], hull.points);
+        for (const Index a : hull.cells[c]) {
+            for (const Index b : hull.cells[c]) {
+                const auto start = std::abs(hull.track_ids[a]);
+                const auto end = std::abs(hull.track_ids[b]);
+                const bool tracked = hull.track_ids[a] != no_track && hull.track_ids[b] != no_track;
+                if (tracked && start != end && hull.points[a][3] < hull.points[b][3]) {
+                    const std::array<std::int64_t, 3> key{hull.layer(c), std::min(start, end),
+                                                          std::max(start, end)};
+                    auto& quad = quads.try_emplace(key, QuadDiagonal{start}).first->second;
+                    quad.angle = std::min(quad.angle, dihedral_angles<3, 4>(corners).smallest);
+                }
+            }
+        }
+    }
+    return quads;
+}
+
+std::size_t starting_at_smallest(const std::set<std::array<std::int64_t, 3>>& diagonals) {
+    return static_cast<std::size_t>(
+        std::count_if(diagonals.begin(), diagonals.end(), [](const auto& d) { return d[1] < d[2]; }));
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE_SIG(
+    "adjacency by construction is that of the soup, for every split, shape and number of layers", "[stitch]",
+    ((int D), D), 2, 3) {
+    for (const auto& grid : family<D>()) {
+        for (const std::vector<double>& times : {std::vector{0.0, 0.5}, std::vector{0.0, 0.2, 0.3, 0.5}}) {
+            const auto parts = slab_over<D>(grid, times, bending_flow<D>());
+            for (const SideOptions& side : all_sides<D>()) {
+                INFO(split_name(side.split) << ", " << times.size() - 1 << " layers");
+                const Hull<D> hull = stitched(parts, side);
+                const Adjacency<D> soup = build_adjacency<D>(hull.cells, hull.points.size());
+                REQUIRE(soup.defects.empty());
+                REQUIRE(hull.neighbors == soup.neighbors);
+            }
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("stitched hulls pass the whole check", "[stitch]", ((int D), D), 2, 3) {
+    const auto expected = [](std::size_t handles_or_bodies) {
+        return D == 2 ? std::vector<std::size_t>{1, 2 * handles_or_bodies, 1}
+                      : std::vector<std::size_t>{1, handles_or_bodies, handles_or_bodies, 1};
+    };
+    for (const SideOptions& side : all_sides<D>()) {
+        INFO(split_name(side.split));
+        const auto check = [&](const specimens::Grid<D>& grid, const std::vector<std::size_t>& betti) {
+            check_sound(stitched(slab_over<D>(grid, {0, 0.25, 0.5}, bending_flow<D>()), side), betti);
+        };
+        check(specimens::full_box<D>(2), expected(0));
+        check(specimens::box_with_body<D>(), expected(1));
+        check(specimens::box_with_two_bodies<D>(), expected(2));
+        check(specimens::box_with_channel<D>(), expected(1)); // the double of a solid torus is S2 x S1
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("the number of threads changes no byte", "[stitch]", ((int D), D), 2, 3) {
+    const auto parts = slab_over<D>(specimens::full_box<D>(12), {0, 0.1, 0.3, 0.5}, bending_flow<D>());
+    for (const SideOptions& side : all_sides<D>()) {
+        set_thread_count(1);
+        const Hull<D> one = stitched(parts, side);
+        set_thread_count(3);
+        const Hull<D> three = stitched(parts, side);
+        set_thread_count(0);
+        CHECK(one.cells == three.cells);
+        CHECK(one.neighbors == three.neighbors);
+        CHECK(one.points == three.points);
+        CHECK(one.vertex_ids == three.vertex_ids);
+        CHECK(one.track_ids == three.track_ids);
+    }
+}
+
+TEST_CASE("diagonals by id start at the smaller track, in every layer", "[stitch]") {
+    const auto parts = slab_over<3>(specimens::box_with_body<3>(), {0, 0.25, 0.5}, bending_flow<3>());
+    const std::size_t facets = parts.sweep.surface.facets.size();
+    const auto check = [&](Split split, Diagonals kind, std::size_t in_layer) {
+        const auto diagonals = diagonals_of(stitched(parts, {split, kind}));
+        CHECK(diagonals.size() == 2 * in_layer);
+        CHECK(starting_at_smallest(diagonals) == diagonals.size());
+    };
+    check(Split::A, Diagonals::shape, facets * 3 / 2);
+    check(Split::A, Diagonals::smallest_id, facets * 3 / 2);
+    check(Split::B, Diagonals::smallest_id, facets);     // all but the paired quadrilaterals
+    check(Split::D, Diagonals::smallest_id, facets / 2); // the paired ones
+}
+
+TEST_CASE("diagonals by shape make no side worse, and a bent one better", "[stitch]") {
+    const auto grid = specimens::box_with_body<3>();
+    const auto shear = formula_velocity<3>({"0.9*y", "0.4*z", "-0.7*x"}, {});
+    const auto parts = slab_over<3>(grid, {0, 0.25, 0.5}, shear);
+    for (const Split split : {Split::B, Split::D}) {
+        const Hull<3> by_shape = stitched(parts, {split, Diagonals::shape});
+        const Hull<3> by_id = stitched(parts, {split, Diagonals::smallest_id});
+        CHECK(by_shape.points == by_id.points);
+        CHECK(smallest_side_angle(by_shape) >= smallest_side_angle(by_id) - 1e-6);
+        const auto diagonals = diagonals_of(by_shape);
+        CHECK(diagonals.size() == diagonals_of(by_id).size());
+        CHECK(starting_at_smallest(diagonals) < diagonals.size());
+    }
+    CHECK(smallest_side_angle(stitched(parts, {Split::B})) >
+          smallest_side_angle(stitched(parts, {Split::B, Diagonals::smallest_id})));
+}
+
+TEST_CASE("each diagonal by shape has the better angles beside it, and the smaller id where they are equal",
+          "[stitch]") {
+    const auto shear = formula_velocity<3>({"0.9*y", "0.4*z", "-0.7*x"}, {});
+    const auto parts =
+        slab_over<3>(specimens::full_box<3>(2), {0, 0.25, 0.5}, GENERATE_COPY(shear, MotionPointer<3>{}));
+    auto turned = parts; // with tracks in the other order, diagonals by id are the other ones
+    for (TrackId& track : turned.initial.track_ids) {
+        track = track == no_track ? no_track : -track;
+    }
+    for (const Split split : {Split::B, Split::D}) {
+        const auto by_shape = quads_of(stitched(parts, {split, Diagonals::shape}));
+        const auto by_id = quads_of(stitched(parts, {split, Diagonals::smallest_id}));
+        const auto against_id = quads_of(stitched(turned, {split, Diagonals::smallest_id}));
+        REQUIRE(by_shape.size() == by_id.size());
+        for (const auto& [quad, taken] : by_shape) {
+            const double gain = against_id.at(quad).angle - by_id.at(quad).angle;
+            const QuadDiagonal& better = gain > 1e-6 ? against_id.at(quad) : by_id.at(quad);
+            CHECK(taken.start == better.start);
+            CHECK(taken.angle == Approx(better.angle).margin(1e-9));
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("a domain that stands has the same side in every slab", "[stitch]", ((int D), D), 2,
+                       3) {
+    IdCounter ids;
+    auto cap = specimens::as_cap<D>(specimens::box_with_body<D>(), ids);
+    const auto first = specimens::next_slab<D>(std::move(cap), {0, 1}, nullptr, ids);
+    const auto second = specimens::next_slab<D>(first.terminating, {1, 2}, nullptr, ids);
+    for (const SideOptions& side : all_sides<D>()) {
+        INFO(split_name(side.split));
+        const Hull<D> before = stitched(first, side);
+        const Hull<D> after = stitched(second, side);
+        REQUIRE(before.side_cells == after.side_cells);
+        for (std::size_t c = before.initial_cells; c < before.terminating_begin(); ++c) {
+            for (std::size_t i = 0; i <= D; ++i) {
+                Point<D + 1> later = before.points[before.cells[c][i]];
+                later[D] += 1;
+                REQUIRE(after.points[after.cells[c][i]] == later);
+            }
+        }
+    }
+}
+
+TEST_CASE("a cap that does not fit its boundary is refused", "[stitch]") {
+    const auto parts = slab_over<3>(specimens::full_box<3>(2), {0, 0.5}, nullptr);
+    const SideOptions side{Split::C};
+    SECTION("a boundary facet turned over") {
+        auto wrong = parts;
+        std::swap(wrong.terminating.boundary_facets[5][0], wrong.terminating.boundary_facets[5][1]);
+        CHECK_THROWS_AS(stitched(wrong, side), GeometryError);
+    }
+    SECTION("a boundary facet too many") {
+        auto wrong = parts;
+        wrong.initial.boundary_facets.push_back({0, 1, 2});
+        CHECK_THROWS_AS(stitched(wrong, side), GeometryError);
+    }
+    SECTION("a boundary facet given twice instead of another") {
+        auto wrong = parts;
+        wrong.initial.boundary_facets[0] = wrong.initial.boundary_facets[1];
+        CHECK_THROWS_AS(stitched(wrong, side), GeometryError);
+    }
+    SECTION("a cell cut off from its neighbour") {
+        auto wrong = parts;
+        auto& row = wrong.terminating.neighbors[3];
+        *std::find_if(row.begin(), row.end(), [](Index n) { return n != no_index; }) = no_index;
+        CHECK_THROWS_WITH(stitched(wrong, side), Catch::Contains("cell 3"));
+    }
+    SECTION("a swept boundary with a hole") {
+        auto wrong = parts;
+        wrong.sweep.surface.facets.pop_back();
+        CHECK_THROWS_WITH(stitched(wrong, side), Catch::Contains("not a closed manifold"));
+    }
+}
+
+TEST_CASE(
+    "every split builds the turning ellipsoid's hull without a finding, with the Betti numbers of S2 x S1",
+    "[stitch]") {
+    Case the_case = experiment_at("ellipsoid", 0.3);
+    StageClock clock;
+    IdCounter ids;
+    const SpatialMesh<3> initial = initial_cap<3>(the_case, ids, {}, clock);
+    for (const SideOptions& side : all_sides<3>()) {
+        INFO(split_name(side.split));
+        the_case.split = side.split;
+        the_case.diagonals = side.diagonals;
+        const auto settings = settings_of<3>(the_case, initial.patches);
+        const auto slab = build_slab<3>(initial, 0, the_case.level_times(0), settings, ids, clock);
+        check_sound(slab.hull, {1, 1, 1, 1});
+    }
+}
+
+TEST_CASE("a case file names the split and its diagonals", "[stitch]") {
+    const auto path = std::filesystem::temp_directory_path() / "slabhull_test_stitch_side.toml";
+    const auto read = [&](const std::string& side) {
+        std::ofstream{path} << "[initial]\nexperiment = \"ellipsoid\"\n" << side;
+        return read_case(path);
+    };
+    CHECK(read("").split == Split::C);
+    for (const char* name : {"A", "B", "C", "D", "E"}) {
+        const Case the_case = read("[side]\nsplit = \"" + std::string{name} + "\"\n");
+        CHECK(split_name(the_case.split) == name);
+        CHECK(the_case.diagonals == Diagonals::shape);
+    }
+    CHECK(read("[side]\nsplit = \"B\"\ndiagonals = \"smallest-id\"\n").diagonals == Diagonals::smallest_id);
+    CHECK_THROWS_WITH(read("[side]\ndiagonals = \"longest\"\n"),
+                      Catch::Contains("\"shape\"") && Catch::Contains("\"smallest-id\""));
+    CHECK_THROWS_AS(read("[side]\nsplit = \"F\"\n"), UsageError);
+    std::filesystem::remove(path);
+}
