@@ -6,6 +6,7 @@
 
 #include "child_process.h"
 #include "hole_seeds.h"
+#include "mesh_order.h"
 
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/embedding.h"
@@ -218,6 +219,9 @@ CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options) {
         throw GeometryError{fmt::format("the 3D mesher, given a surface of {} triangles and {} points, {}",
                                         surface.facets.size(), surface.points.size(),
                                         end_in_words(end, heading))};
+    }
+    if (options.along_curve) {
+        order_along_curve(mesh, surface.points.size());
     }
     verify_cap(mesh, surface);
     return mesh;

@@ -152,7 +152,7 @@ private:
             Index vertex;
             auto operator<=>(const Turn&) const = default;
         };
-        const ZOrder curve{surface_.points};
+        const ZOrder<2> curve{surface_.points};
         std::vector<Turn> turns;
         turns.reserve(surface_.points.size());
         for (std::size_t v = 0; v < surface_.points.size(); ++v) {

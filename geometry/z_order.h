@@ -4,49 +4,66 @@
 #include "slabhull/core/point.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace slabhull {
 
-/// Places in the plane along a Z curve (Morton order): what is near in the order is near in the plane.
+/// Places along a Z curve (Morton order): what is near in the order is near in space.
+template<int D>
 class ZOrder {
 public:
     /// The curve fills the box around `points`, of which there is at least one.
-    explicit ZOrder(std::span<const Point<2>> points) : low_{points[0]} {
-        Point<2> high = low_;
-        for (const Point<2>& p : points) {
-            for (std::size_t k = 0; k < 2; ++k) {
+    explicit ZOrder(std::span<const Point<D>> points) : low_{points[0]} {
+        Point<D> high = low_;
+        for (const Point<D>& p : points) {
+            for (std::size_t k = 0; k < D; ++k) {
                 low_[k] = std::min(low_[k], p[k]);
                 high[k] = std::max(high[k], p[k]);
             }
         }
-        edge_ = std::max(high[0] - low_[0], high[1] - low_[1]);
+        for (std::size_t k = 0; k < D; ++k) {
+            edge_ = std::max(edge_, high[k] - low_[k]);
+        }
     }
 
-    std::uint64_t operator()(const Point<2>& p) const {
-        return spread(digits(p, 0)) | spread(digits(p, 1)) << 1;
+    std::uint64_t operator()(const Point<D>& p) const {
+        std::uint64_t place = 0;
+        for (std::size_t k = 0; k < D; ++k) {
+            place |= spread(digits(p, k)) << k;
+        }
+        return place;
     }
 
 private:
-    std::uint64_t digits(const Point<2>& p, std::size_t k) const {
+    static constexpr int bits = D == 2 ? 32 : 21; ///< per coordinate
+
+    std::uint64_t digits(const Point<D>& p, std::size_t k) const {
+        constexpr auto last = static_cast<double>((std::uint64_t{1} << bits) - 1);
         const double along = edge_ > 0 ? (p[k] - low_[k]) / edge_ : 0.0;
-        return static_cast<std::uint64_t>(std::clamp(along, 0.0, 1.0) * 0xffffffffU);
+        return static_cast<std::uint64_t>(std::clamp(along, 0.0, 1.0) * last);
     }
 
-    /// Puts a zero in front of each of 32 bits.
+    /// Puts D - 1 zeros in front of each bit.
     static std::uint64_t spread(std::uint64_t x) {
-        x = (x | (x << 16)) & 0x0000ffff0000ffffU;
-        x = (x | (x << 8)) & 0x00ff00ff00ff00ffU;
-        x = (x | (x << 4)) & 0x0f0f0f0f0f0f0f0fU;
-        x = (x | (x << 2)) & 0x3333333333333333U;
-        return (x | (x << 1)) & 0x5555555555555555U;
+        if constexpr (D == 2) {
+            x = (x | (x << 16)) & 0x0000ffff0000ffffU;
+            x = (x | (x << 8)) & 0x00ff00ff00ff00ffU;
+            x = (x | (x << 4)) & 0x0f0f0f0f0f0f0f0fU;
+            x = (x | (x << 2)) & 0x3333333333333333U;
+            return (x | (x << 1)) & 0x5555555555555555U;
+        } else {
+            x = (x | (x << 32)) & 0x001f00000000ffffU;
+            x = (x | (x << 16)) & 0x001f0000ff0000ffU;
+            x = (x | (x << 8)) & 0x100f00f00f00f00fU;
+            x = (x | (x << 4)) & 0x10c30c30c30c30c3U;
+            return (x | (x << 2)) & 0x1249249249249249U;
+        }
     }
 
-    Point<2> low_;
-    double edge_;
+    Point<D> low_;
+    double edge_ = 0;
 };
 
 } // namespace slabhull

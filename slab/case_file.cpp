@@ -257,6 +257,9 @@ private:
                 table.fail("quality", "a radius-edge bound of at least 1");
             }
         }
+        if (table.has("order")) {
+            case_.cap_along_curve = table.choice<bool>("order", {{"curve", true}, {"mesher", false}});
+        }
         table.require_all_known();
     }
 

@@ -80,6 +80,7 @@ CapOptions cap_options(const Case& the_case) {
     CapOptions options;
     options.grading = {the_case.cap_growth, the_case.cap_size};
     options.radius_edge = the_case.cap_quality;
+    options.along_curve = the_case.cap_along_curve;
     return options;
 }
 

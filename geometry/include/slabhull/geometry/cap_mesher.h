@@ -14,6 +14,9 @@ struct CapOptions {
     double radius_edge = 1.414; ///< largest ratio of circumradius to shortest edge (D = 3)
     double min_dihedral = 10;   ///< wanted dihedral angle in degrees (D = 3)
     double min_angle = 20;      ///< wanted angle in degrees (D = 2)
+    /// Interior points and cells along a space-filling curve; otherwise in the mesher's own order, which is slower to
+    /// walk.
+    bool along_curve = true;
 };
 
 /// A mesh of the domain inside a surface.

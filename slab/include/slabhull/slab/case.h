@@ -92,6 +92,7 @@ struct Case {
     double cap_size = std::numeric_limits<double>::infinity();
     double cap_growth = 0.3;
     double cap_quality = 1.414;
+    bool cap_along_curve = true;
 
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};
