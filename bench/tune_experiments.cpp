@@ -13,7 +13,7 @@ using namespace slabhull;
 
 namespace {
 
-constexpr double good_enough = 0.015;
+constexpr double good_enough = 0.02;
 
 template<int D>
 double count_cells(const Case& the_case) {
@@ -52,9 +52,9 @@ double tune(const std::string& name, double wanted, double guess) {
         guess *= std::pow(wanted / attempt(guess), power);
     }
     const double centre = best;
-    for (int i = 1; i <= 8 && best_error > good_enough; ++i) {
-        attempt(centre * (1 + 0.01 * i));
-        attempt(centre * (1 - 0.01 * i));
+    for (int i = 1; i <= 16 && best_error > good_enough; ++i) {
+        attempt(centre * (1 + 0.004 * i));
+        attempt(centre * (1 - 0.004 * i));
     }
     return best;
 }

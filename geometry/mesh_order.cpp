@@ -15,16 +15,30 @@ namespace {
 
 constexpr std::size_t grain = 1 << 14;
 
+/// A place along the curve, and who is there.
+using Keyed = std::pair<std::uint64_t, Index>;
+
+/// Sorts pieces, then merges them by twos.
+void sort_by_place(Array<Keyed>& keyed) {
+    const auto at = [&keyed](std::size_t i) { return keyed.begin() + static_cast<std::ptrdiff_t>(i); };
+    parallel_for(keyed.size(), grain, [&](std::size_t begin, std::size_t end) { std::sort(at(begin), at(end)); });
+    for (std::size_t width = grain; width < keyed.size(); width *= 2) {
+        parallel_for(keyed.size(), 2 * width, [&](std::size_t begin, std::size_t end) {
+            std::inplace_merge(at(begin), at(std::min(begin + width, end)), at(end));
+        });
+    }
+}
+
 /// `count` things by their places along the curve; what is in one place by number.
 template<class Place>
 Array<Index> sorted_along_curve(std::size_t count, const Place& place) {
-    Array<std::pair<std::uint64_t, Index>> keyed(count);
+    Array<Keyed> keyed(count);
     parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             keyed[k] = {place(k), static_cast<Index>(k)};
         }
     });
-    std::sort(keyed.begin(), keyed.end());
+    sort_by_place(keyed);
     Array<Index> order(count);
     std::transform(keyed.begin(), keyed.end(), order.begin(), [](const auto& entry) { return entry.second; });
     return order;

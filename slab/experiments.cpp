@@ -38,18 +38,18 @@ struct Experiment {
     std::span<const double> refinement; ///< by level
 };
 
-constexpr std::array circle_levels{0.724, 1.024, 1.398, 2.001, 2.829, 4.022, 5.724, 8.014, 11.514};
-constexpr std::array expanding_circle_levels{0.736, 1.040, 1.405, 2.004, 2.844, 4.043, 5.742, 8.039, 11.478};
-constexpr std::array sphere_levels{0.968, 1.310, 1.820};
-constexpr std::array expanding_sphere_levels{1.000, 1.434, 2.019};
+constexpr std::array circle_levels{0.747, 1.046, 1.399, 1.959, 2.790, 3.906, 5.573, 7.802, 11.118};
+constexpr std::array expanding_circle_levels{0.748, 1.047, 1.396, 1.985, 2.814, 3.940, 5.621, 7.869, 11.155};
+constexpr std::array sphere_levels{1.040, 1.410, 1.950};
+constexpr std::array expanding_sphere_levels{1.050, 1.410, 1.960};
 constexpr std::array ellipsoid_levels{1.137, 1.614, 2.280};
-constexpr std::array tandem_levels{1.162, 1.692, 2.513};
+constexpr std::array tandem_levels{1.140, 1.612, 2.280};
 
 constexpr std::array<Experiment, 6> experiments{{
     {"circle", "Circle in a square, at rest", 2, {0.15, 0.4, 0.3, 0.25}, circle_levels},
     {"expanding-circle", "Expanding circle in a square", 2, {0.15, 0.4, 0.3, 0.25}, expanding_circle_levels},
-    {"sphere", "Sphere in a cube, at rest", 3, {0.2, 0.8, 0.5, 0.12}, sphere_levels},
-    {"expanding-sphere", "Expanding sphere in a cube", 3, {0.2, 0.8, 0.5, 0.12}, expanding_sphere_levels},
+    {"sphere", "Sphere in a cube, at rest", 3, {0.19, 0.7, 0.5, 0.25}, sphere_levels},
+    {"expanding-sphere", "Expanding sphere in a cube", 3, {0.19, 0.7, 0.5, 0.25}, expanding_sphere_levels},
     {"ellipsoid", "Ellipsoid turning in a cube", 3, {0.3, 1.2, 0.6, 0.1}, ellipsoid_levels},
     {"tandem-ellipsoids", "Two ellipsoids turning against each other in a cube", 3, {0.3, 1.2, 0.6, 0.1}, tandem_levels},
 }};

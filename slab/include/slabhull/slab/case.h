@@ -93,7 +93,7 @@ struct Case {
     double cap_size = std::numeric_limits<double>::infinity();
     double cap_growth = 0.3;
     double cap_quality = 1.414;
-    bool cap_curve_order = false; ///< `cap.order = "curve"`
+    bool cap_curve_order = true; ///< `cap.order = "curve"`
 
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};
