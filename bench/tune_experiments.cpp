@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds, for one of the six experiments and the element counts of the paper's table, the refinement of each level.
-// Usage: tune_experiments <experiment> <elements of level 1> [<elements of level 2> ...]
+// Finds, for one of the six experiments and the element counts of the paper's table, the refinement of each
+// level. Usage: tune_experiments <experiment> <elements of level 1> [<elements of level 2> ...]
 #include "slabhull/slab/initial.h"
 #include "slabhull/slab/slab.h"
 
@@ -34,8 +34,8 @@ double count_at(const std::string& name, double refinement) {
     return the_case.dimension == 2 ? count_cells<2>(the_case) : count_cells<3>(the_case);
 }
 
-/// The count is a staircase in the refinement, as divisions and layers are whole: secant steps first, then a scan
-/// around the best for what comes closest.
+/// The count is a staircase in the refinement, as divisions and layers are whole: secant steps first, then a
+/// scan around the best for what comes closest.
 double tune(const std::string& name, double wanted, double guess) {
     const double power = 1.0 / experiment_at(name, 1).dimension;
     double best = guess;
@@ -67,8 +67,9 @@ int main(int argc, char** argv) {
         const double wanted = std::atof(argv[i]);
         guess = std::round(1000 * tune(argv[1], wanted, guess)) / 1000;
         const double count = count_at(argv[1], guess);
-        std::printf("%s level %d refinement %.3f count %.0f wanted %.0f ratio %.4f layers %zu\n", argv[1], i - 1, guess, count,
-                    wanted, count / wanted, experiment_at(argv[1], guess).level_times(0).size() - 1);
+        std::printf("%s level %d refinement %.3f count %.0f wanted %.0f ratio %.4f layers %zu\n", argv[1],
+                    i - 1, guess, count, wanted, count / wanted,
+                    experiment_at(argv[1], guess).level_times(0).size() - 1);
         std::fflush(stdout);
         guess *= 1.4;
     }

@@ -9,7 +9,8 @@ namespace slabhull {
 
 Index checked_index(std::size_t count, const char* what) {
     if (count >= no_index) {
-        throw LimitError(fmt::format("{} {} are more than the {} that one mesh can hold", count, what, no_index - 1));
+        throw LimitError(
+            fmt::format("{} {} are more than the {} that one mesh can hold", count, what, no_index - 1));
     }
     return static_cast<Index>(count);
 }

@@ -12,7 +12,9 @@ namespace slabhull {
 
 namespace {
 
-int machine_cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int machine_cores() {
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 std::atomic<int> configured_threads{0};
 
@@ -23,7 +25,9 @@ int thread_count() {
     return configured > 0 ? configured : machine_cores();
 }
 
-void set_thread_count(int count) { configured_threads.store(std::max(0, count)); }
+void set_thread_count(int count) {
+    configured_threads.store(std::max(0, count));
+}
 
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {

@@ -15,8 +15,12 @@ std::size_t peak_of(int who) {
 
 } // namespace
 
-std::size_t peak_memory() { return peak_of(RUSAGE_SELF); }
+std::size_t peak_memory() {
+    return peak_of(RUSAGE_SELF);
+}
 
-std::size_t peak_memory_of_children() { return peak_of(RUSAGE_CHILDREN); }
+std::size_t peak_memory_of_children() {
+    return peak_of(RUSAGE_CHILDREN);
+}
 
 } // namespace slabhull

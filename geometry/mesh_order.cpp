@@ -21,7 +21,8 @@ using Keyed = std::pair<std::uint64_t, Index>;
 /// Sorts pieces, then merges them by twos.
 void sort_by_place(Array<Keyed>& keyed) {
     const auto at = [&keyed](std::size_t i) { return keyed.begin() + static_cast<std::ptrdiff_t>(i); };
-    parallel_for(keyed.size(), grain, [&](std::size_t begin, std::size_t end) { std::sort(at(begin), at(end)); });
+    parallel_for(keyed.size(), grain,
+                 [&](std::size_t begin, std::size_t end) { std::sort(at(begin), at(end)); });
     for (std::size_t width = grain; width < keyed.size(); width *= 2) {
         parallel_for(keyed.size(), 2 * width, [&](std::size_t begin, std::size_t end) {
             std::inplace_merge(at(begin), at(std::min(begin + width, end)), at(end));

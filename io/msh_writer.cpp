@@ -237,7 +237,9 @@ private:
 
 } // namespace
 
-void write_msh(AtomicFile& file, const MeshColumns& mesh) { MshWriter{file, mesh}.write(); }
+void write_msh(AtomicFile& file, const MeshColumns& mesh) {
+    MshWriter{file, mesh}.write();
+}
 
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh) {
     AtomicFile file{path};

@@ -131,8 +131,8 @@ public:
         arrays_.push_back(std::move(array));
     }
 
-    /// meshio replaces offsets by those of its base64 copy one after the other, and finds the next array by its
-    /// offset: one that equals a replaced offset leads it astray.
+    /// meshio replaces offsets by those of its base64 copy one after the other, and finds the next array by
+    /// its offset: one that equals a replaced offset leads it astray.
     bool leads_meshio_astray() const {
         std::vector<std::uint64_t> replaced;
         std::uint64_t offset = 0;

@@ -63,7 +63,8 @@ private:
         const char* bodies = case_.dimension == 3 ? "surfaces" : "curves";
         if (initial.has("mesh")) {
             if (initial.has(bodies)) {
-                initial.fail(bodies, "exactly one of \"mesh\", \"surfaces\" or \"curves\", and \"experiment\"");
+                initial.fail(bodies,
+                             "exactly one of \"mesh\", \"surfaces\" or \"curves\", and \"experiment\"");
             }
             case_.initial = InitialMesh{directory_ / initial.text("mesh")};
             return;
@@ -73,8 +74,10 @@ private:
             parts.files.push_back(read_body(body, nullptr));
         }
         if (initial.has("box") == initial.has("outer")) {
-            initial.fail("box", fmt::format("\"mesh\", \"experiment\", or {} with exactly one of \"box\" and \"outer\"",
-                                            bodies));
+            initial.fail(
+                "box",
+                fmt::format("\"mesh\", \"experiment\", or {} with exactly one of \"box\" and \"outer\"",
+                            bodies));
         }
         if (initial.has("box")) {
             parts.outer = read_box(initial.table("box"));
@@ -128,7 +131,8 @@ private:
             case_.spacing = time.positive("spacing");
             case_.layers.reset();
             if ((case_.end - case_.start) / case_.slabs > most_layers * *case_.spacing) {
-                time.fail("spacing", fmt::format("a spacing that makes at most {} layers in a slab", most_layers));
+                time.fail("spacing",
+                          fmt::format("a spacing that makes at most {} layers in a slab", most_layers));
             }
         }
         time.require_all_known();
@@ -185,7 +189,8 @@ private:
         ProjectionSpec spec;
         const std::string ball = solid ? "sphere" : "circle";
         const std::string egg = solid ? "ellipsoid" : "ellipse";
-        std::map<std::string, Kind> kinds{{ball, Kind::sphere}, {egg, Kind::ellipsoid}, {"plane", Kind::plane}};
+        std::map<std::string, Kind> kinds{
+            {ball, Kind::sphere}, {egg, Kind::ellipsoid}, {"plane", Kind::plane}};
         if (solid) {
             kinds["cylinder"] = Kind::cylinder;
         }

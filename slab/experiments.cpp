@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The six experiments of Anderson, Williams and Corrigan. One number per level, the refinement, sets the three spacings
-// (body, box, time) in fixed proportion; it was found by search so that the hull has the paper's number of simplices.
+// The six experiments of Anderson, Williams and Corrigan. One number per level, the refinement, sets the
+// three spacings (body, box, time) in fixed proportion; it was found by search so that the hull has the
+// paper's number of simplices.
 #include "slabhull/slab/case.h"
 
 #include "slabhull/core/error.h"
@@ -34,7 +35,7 @@ struct Experiment {
     const char* name;
     const char* title;
     int dimension;
-    Spacings spacings; ///< at refinement 1
+    Spacings spacings;                  ///< at refinement 1
     std::span<const double> refinement; ///< by level
 };
 
@@ -51,7 +52,11 @@ constexpr std::array<Experiment, 6> experiments{{
     {"sphere", "Sphere in a cube, at rest", 3, {0.19, 0.7, 0.5, 0.25}, sphere_levels},
     {"expanding-sphere", "Expanding sphere in a cube", 3, {0.19, 0.7, 0.5, 0.25}, expanding_sphere_levels},
     {"ellipsoid", "Ellipsoid turning in a cube", 3, {0.3, 1.2, 0.6, 0.1}, ellipsoid_levels},
-    {"tandem-ellipsoids", "Two ellipsoids turning against each other in a cube", 3, {0.3, 1.2, 0.6, 0.1}, tandem_levels},
+    {"tandem-ellipsoids",
+     "Two ellipsoids turning against each other in a cube",
+     3,
+     {0.3, 1.2, 0.6, 0.1},
+     tandem_levels},
 }};
 
 const Experiment& find_experiment(const std::string& name) {

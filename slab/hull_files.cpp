@@ -64,7 +64,9 @@ Array<Index> a_cell_of_each_point(const Hull<D>& hull) {
     return cell;
 }
 
-DataArray number_field(std::string name, Array<std::int64_t> values) { return {std::move(name), 1, std::move(values)}; }
+DataArray number_field(std::string name, Array<std::int64_t> values) {
+    return {std::move(name), 1, std::move(values)};
+}
 
 template<int D>
 Column<double> times_of(const Hull<D>& hull) {
@@ -92,10 +94,11 @@ void write_hull_vtu(io::AtomicFile& file, const Hull<D>& hull) {
     const auto region = [&hull](std::size_t c) { return static_cast<int>(hull.region(c)); };
     const auto patch = [&hull](std::size_t c) { return hull.patch(c); };
     const auto layer = [&hull](std::size_t c) { return hull.layer(c); };
-    mesh.cell_data = {{"region", Scalar::int32, computed<std::int64_t>(cells, region)},
-                      {"patch", Scalar::int32, computed<std::int64_t>(cells, patch)},
-                      {"layer", Scalar::int32, computed<std::int64_t>(cells, layer)},
-                      {"neighbors", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors})}};
+    mesh.cell_data = {
+        {"region", Scalar::int32, computed<std::int64_t>(cells, region)},
+        {"patch", Scalar::int32, computed<std::int64_t>(cells, patch)},
+        {"layer", Scalar::int32, computed<std::int64_t>(cells, layer)},
+        {"neighbors", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors})}};
     Array<std::int64_t> numbers;
     std::vector<std::string> names;
     for (const Patch& each : hull.patches) {
@@ -126,7 +129,8 @@ std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
             if (groups.back().number == number) {
                 groups.back().end = begin + hull.cells_per_prism;
             } else {
-                groups.push_back({begin, begin + hull.cells_per_prism, number, patch_name(hull.patches, number)});
+                groups.push_back(
+                    {begin, begin + hull.cells_per_prism, number, patch_name(hull.patches, number)});
             }
         }
     }
@@ -144,7 +148,8 @@ void write_hull_msh(io::AtomicFile& file, const Hull<D>& hull) {
     mesh.point_data.push_back({"vertex_id", Scalar::int64, ids(hull.vertex_ids)});
     mesh.point_data.push_back({"track_id", Scalar::int64, ids(hull.track_ids)});
     // Element tags count from 1.
-    mesh.cell_data = {{"neighbor", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors}, 1)}};
+    mesh.cell_data = {
+        {"neighbor", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors}, 1)}};
     io::write_msh(file, mesh);
 }
 
@@ -161,8 +166,10 @@ Array<std::int64_t> whole_numbers(const io::Soup& soup, const DataArray& array) 
     const auto* reals = std::get_if<Array<double>>(&array.values);
     Array<std::int64_t> whole;
     for (const double value : reals != nullptr ? *reals : Array<double>{}) {
-        if (!(value >= -9e15 && value <= 9e15) || value != static_cast<double>(static_cast<std::int64_t>(value))) {
-            throw InputError(fmt::format("{}: array \"{}\": {} is not a whole number", soup.path, array.name, value));
+        if (!(value >= -9e15 && value <= 9e15) ||
+            value != static_cast<double>(static_cast<std::int64_t>(value))) {
+            throw InputError(
+                fmt::format("{}: array \"{}\": {} is not a whole number", soup.path, array.name, value));
         }
         whole.push_back(static_cast<std::int64_t>(value));
     }
@@ -170,13 +177,14 @@ Array<std::int64_t> whole_numbers(const io::Soup& soup, const DataArray& array) 
 }
 
 /// A given array of whole numbers with the right shape, or an empty one.
-Array<std::int64_t> optional_numbers(const io::Soup& soup, const DataArray* array, std::size_t rows, int components) {
+Array<std::int64_t> optional_numbers(const io::Soup& soup, const DataArray* array, std::size_t rows,
+                                     int components) {
     if (array == nullptr) {
         return {};
     }
     if (array->components != components || row_count(*array) != rows) {
-        throw InputError(fmt::format("{}: array \"{}\" has {} rows of {}, expected {} of {}", soup.path, array->name,
-                                     row_count(*array), array->components, rows, components));
+        throw InputError(fmt::format("{}: array \"{}\" has {} rows of {}, expected {} of {}", soup.path,
+                                     array->name, row_count(*array), array->components, rows, components));
     }
     return whole_numbers(soup, *array);
 }
@@ -199,7 +207,8 @@ Array<Point<D + 1>> space_time_points(const io::Soup& soup) {
         const DataArray* array = soup.find_point_data("t");
         times = array == nullptr ? nullptr : std::get_if<Array<double>>(&array->values);
         if (times == nullptr || times->size() != points.size()) {
-            throw InputError(fmt::format("{}: needs a point array \"t\" of real numbers, one for each point", soup.path));
+            throw InputError(
+                fmt::format("{}: needs a point array \"t\" of real numbers, one for each point", soup.path));
         }
     }
     for (std::size_t v = 0; v < points.size(); ++v) {
@@ -255,7 +264,8 @@ void read_msh_neighbors(const io::Soup& soup, HullArrays<D>& hull) {
 template<int D>
 void read_fields(const io::Soup& soup, HullArrays<D>& hull) {
     if (const DataArray* time = soup.find_field_data("time")) {
-        if (const auto* values = std::get_if<Array<double>>(&time->values); values != nullptr && values->size() == 2) {
+        if (const auto* values = std::get_if<Array<double>>(&time->values);
+            values != nullptr && values->size() == 2) {
             hull.time = {{(*values)[0], (*values)[1]}};
         }
     }

@@ -102,11 +102,12 @@ Surface<D> boundary_of_bodies(const InitialBodies& bodies) {
         pieces.push_back(read_body<D>(body, false, number(body.patch)));
     }
     for (const EllipsoidBody& body : bodies.ellipsoids) {
-        pieces.push_back(ellipsoid_body<D>(as_point<D>(body.centre), as_point<D>(body.semi_axes), body.frequency,
-                                           number(body.patch)));
+        pieces.push_back(ellipsoid_body<D>(as_point<D>(body.centre), as_point<D>(body.semi_axes),
+                                           body.frequency, number(body.patch)));
     }
     if (const auto* box = std::get_if<BoxSpec>(&bodies.outer)) {
-        pieces.push_back(box_surface<D>(as_point<D>(box->min), as_point<D>(box->max), box->size, number(box->patch)));
+        pieces.push_back(
+            box_surface<D>(as_point<D>(box->min), as_point<D>(box->max), box->size, number(box->patch)));
     } else {
         const auto& outer = std::get<BodyFile>(bodies.outer);
         pieces.push_back(read_body<D>(outer, true, number(outer.patch)));
@@ -171,7 +172,8 @@ SpatialMesh<D> mesh_bodies(const InitialBodies& bodies, const CapOptions& option
 } // namespace
 
 template<int D>
-SpatialMesh<D> initial_cap(const Case& the_case, IdCounter& ids, const Listener& listener, StageClock& clock) {
+SpatialMesh<D> initial_cap(const Case& the_case, IdCounter& ids, const Listener& listener,
+                           StageClock& clock) {
     SpatialMesh<D> mesh;
     if (const auto* file = std::get_if<InitialMesh>(&the_case.initial)) {
         const io::Soup soup = io::read_mesh(file->file);

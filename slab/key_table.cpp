@@ -64,11 +64,14 @@ KeyTable KeyTable::parse_file(const std::filesystem::path& path) {
         const toml::table* table = root.get();
         return KeyTable{std::make_shared<Node>(Node{std::move(root), table, path.string(), ""})};
     } catch (const toml::parse_error& error) {
-        throw UsageError(fmt::format("{}: line {}: {}", path.string(), error.source().begin.line, error.description()));
+        throw UsageError(
+            fmt::format("{}: line {}: {}", path.string(), error.source().begin.line, error.description()));
     }
 }
 
-bool KeyTable::has(const std::string& key) const { return node_->find(key) != nullptr; }
+bool KeyTable::has(const std::string& key) const {
+    return node_->find(key) != nullptr;
+}
 
 std::vector<std::string> KeyTable::keys() const {
     std::vector<std::string> names;
@@ -93,10 +96,10 @@ void KeyTable::require_all_known() const {
         }
         std::string message = fmt::format("{}: line {}: unknown key \"{}\"", node_->file,
                                           key.source().begin.line, node_->full_name(name));
-        const auto nearest = std::min_element(
-            node_->known.begin(), node_->known.end(), [&name](const std::string& a, const std::string& b) {
-                return edit_distance(a, name) < edit_distance(b, name);
-            });
+        const auto nearest = std::min_element(node_->known.begin(), node_->known.end(),
+                                              [&name](const std::string& a, const std::string& b) {
+                                                  return edit_distance(a, name) < edit_distance(b, name);
+                                              });
         if (nearest != node_->known.end()) {
             message += fmt::format("; the nearest known key is \"{}\"", node_->full_name(*nearest));
         }
@@ -118,8 +121,9 @@ std::optional<std::string> KeyTable::optional_text(const std::string& key) {
 
 int KeyTable::integer(const std::string& key, int smallest, int largest) {
     const toml::node* node = node_->find(key);
-    const std::string expected = smallest == largest ? fmt::format("{}", smallest)
-                                                     : fmt::format("a whole number from {} to {}", smallest, largest);
+    const std::string expected = smallest == largest
+                                     ? fmt::format("{}", smallest)
+                                     : fmt::format("a whole number from {} to {}", smallest, largest);
     if (node == nullptr || !node->is_integer()) {
         fail(key, expected);
     }
@@ -142,7 +146,9 @@ double KeyTable::number(const std::string& key) {
     return value;
 }
 
-double KeyTable::number_or(const std::string& key, double otherwise) { return has(key) ? number(key) : otherwise; }
+double KeyTable::number_or(const std::string& key, double otherwise) {
+    return has(key) ? number(key) : otherwise;
+}
 
 double KeyTable::positive(const std::string& key) {
     const double value = number(key);
@@ -216,7 +222,8 @@ KeyTable KeyTable::table(const std::string& key) {
     if (node == nullptr || !node->is_table()) {
         fail(key, "a table");
     }
-    return KeyTable{std::make_shared<Node>(Node{node_->root, node->as_table(), node_->file, node_->full_name(key)})};
+    return KeyTable{
+        std::make_shared<Node>(Node{node_->root, node->as_table(), node_->file, node_->full_name(key)})};
 }
 
 KeyTable KeyTable::optional_table(const std::string& key) {
@@ -225,7 +232,8 @@ KeyTable KeyTable::optional_table(const std::string& key) {
     }
     auto empty = std::make_shared<const toml::table>();
     const toml::table* inside = empty.get();
-    return KeyTable{std::make_shared<Node>(Node{std::move(empty), inside, node_->file, node_->full_name(key)})};
+    return KeyTable{
+        std::make_shared<Node>(Node{std::move(empty), inside, node_->file, node_->full_name(key)})};
 }
 
 std::vector<KeyTable> KeyTable::optional_tables(const std::string& key) {
@@ -242,7 +250,8 @@ std::vector<KeyTable> KeyTable::optional_tables(const std::string& key) {
             fail(key, "a list of tables");
         }
         const std::string name = fmt::format("{}[{}]", node_->full_name(key), tables.size());
-        tables.push_back(KeyTable{std::make_shared<Node>(Node{node_->root, entry.as_table(), node_->file, name})});
+        tables.push_back(
+            KeyTable{std::make_shared<Node>(Node{node_->root, entry.as_table(), node_->file, name})});
     }
     return tables;
 }

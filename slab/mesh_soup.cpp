@@ -38,9 +38,10 @@ private:
         const Point<3>& x = soup.points[v];
         if constexpr (D == 2) {
             if (x[2] != soup.points[0][2]) {
-                throw InputError(fmt::format("{}: point {} has z = {}, but a plane mesh (dimension = 2) has one z", soup.path,
-                                             soup.point_tag(v), x[2]),
-                                 {{"vertex", soup.point_tag(v), ""}});
+                throw InputError(
+                    fmt::format("{}: point {} has z = {}, but a plane mesh (dimension = 2) has one z",
+                                soup.path, soup.point_tag(v), x[2]),
+                    {{"vertex", soup.point_tag(v), ""}});
             }
             return {x[0], x[1]};
         } else {
@@ -62,16 +63,19 @@ Array<Simplex<K>> renumbered(const io::SimplexBlock& block, const std::vector<In
 
 std::string listed(const std::vector<std::int64_t>& numbers) {
     const std::size_t shown = std::min<std::size_t>(numbers.size(), 8);
-    return fmt::format("{}{}", fmt::join(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+    return fmt::format("{}{}",
+                       fmt::join(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
                        shown < numbers.size() ? ", ..." : "");
 }
 
-[[noreturn]] void refuse_cells(const io::Soup& soup, const std::vector<std::int64_t>& cells, const std::string& what) {
+[[noreturn]] void refuse_cells(const io::Soup& soup, const std::vector<std::int64_t>& cells,
+                               const std::string& what) {
     std::vector<Entity> entities;
     for (const std::int64_t cell : cells) {
         entities.push_back({"cell", cell, ""});
     }
-    throw InputError(fmt::format("{}: {} {}: {}", soup.path, cells.size(), what, listed(cells)), std::move(entities));
+    throw InputError(fmt::format("{}: {} {}: {}", soup.path, cells.size(), what, listed(cells)),
+                     std::move(entities));
 }
 
 template<int D>
@@ -82,8 +86,8 @@ public:
 
     SpatialMesh<D> run() {
         if (block_.size(D) == 0) {
-            throw InputError(fmt::format("{}: has no {}, which a domain of dimension {} is made of", soup_.path,
-                                         D == 3 ? "tetrahedra" : "triangles", D));
+            throw InputError(fmt::format("{}: has no {}, which a domain of dimension {} is made of",
+                                         soup_.path, D == 3 ? "tetrahedra" : "triangles", D));
         }
         UsedPoints<D> used{soup_, block_.vertices};
         mesh_.points = std::move(used.points);
@@ -145,7 +149,8 @@ private:
             refuse_cells(soup_, overfull, "cells meet in a facet of three or more");
         }
         if (!folded.empty()) { // both cells are positive, so they lie on the same side of their facet
-            refuse_cells(soup_, folded, "cells overlap a neighbour (both lie on the same side of their facet)");
+            refuse_cells(soup_, folded,
+                         "cells overlap a neighbour (both lie on the same side of their facet)");
         }
         mesh_.neighbors = std::move(adjacency.neighbors);
     }
@@ -202,9 +207,10 @@ private:
         if (without > 0) {
             std::replace(mesh_.boundary_patch.begin(), mesh_.boundary_patch.end(), 0, largest + 1);
             names.emplace(largest + 1, "boundary");
-            listener_.warning(fmt::format("{}: {} of {} boundary facets are in no physical group; they become the patch "
-                                          "\"boundary\"",
-                                          soup_.path, without, mesh_.boundary_patch.size()));
+            listener_.warning(
+                fmt::format("{}: {} of {} boundary facets are in no physical group; they become the patch "
+                            "\"boundary\"",
+                            soup_.path, without, mesh_.boundary_patch.size()));
         }
         for (const auto& [number, name] : names) {
             mesh_.patches.push_back({number, name});

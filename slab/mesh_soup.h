@@ -9,16 +9,15 @@
 
 namespace slabhull {
 
-/// The facets of a soup as one patch; used points only. Throws InputError when it has no facets or, for D = 2, leaves
-/// the plane z = 0.
+/// The facets of a soup as one patch; used points only. Throws InputError when it has no facets or, for D =
+/// 2, leaves the plane z = 0.
 template<int D>
 Surface<D> surface_of_soup(const io::Soup& soup, const Patch& patch);
 
-/// The D-simplices of a soup as the mesh of a domain, in the file's order: used points only, cells positive, patches
-/// from the physical groups of the boundary facets. Facets in no group become the patch "boundary", with a warning
-/// that counts them.
-/// Throws InputError naming cells and facets by the file's numbers: inverted, degenerate, overlapping cells, a boundary
-/// that is not one.
+/// The D-simplices of a soup as the mesh of a domain, in the file's order: used points only, cells positive,
+/// patches from the physical groups of the boundary facets. Facets in no group become the patch "boundary",
+/// with a warning that counts them. Throws InputError naming cells and facets by the file's numbers:
+/// inverted, degenerate, overlapping cells, a boundary that is not one.
 template<int D>
 SpatialMesh<D> domain_of_soup(const io::Soup& soup, const Listener& listener);
 

@@ -10,7 +10,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json angles_as_json(const AngleRange& angles) { return {{"smallest", angles.smallest}, {"largest", angles.largest}}; }
+Json angles_as_json(const AngleRange& angles) {
+    return {{"smallest", angles.smallest}, {"largest", angles.largest}};
+}
 
 Json findings_as_json(const CheckResult& result) {
     Json findings = Json::array();
@@ -64,7 +66,8 @@ nlohmann::ordered_json as_json(const HullReport& report) {
           {"components", report.counts.components},
           {"euler", report.counts.euler},
           {"layers", report.layers}}},
-        {"cells_by_region", {{"initial", regions[0]}, {"intermediate", regions[1]}, {"terminating", regions[2]}}},
+        {"cells_by_region",
+         {{"initial", regions[0]}, {"intermediate", regions[1]}, {"terminating", regions[2]}}},
         {"cells_by_patch", std::move(patches)},
         {"measure",
          {{"hull", report.measure},

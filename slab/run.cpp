@@ -44,7 +44,8 @@ Json settings_as_json(const Case& the_case) {
             {"cap_mesher", the_case.dimension == 3 ? "tetgen" : "cdt"},
             {"cap_size", std::isfinite(the_case.cap_size) ? Json(the_case.cap_size) : Json()},
             {"cap_growth", the_case.cap_growth},
-            {"cap_quality", the_case.cap_quality}};
+            {"cap_quality", the_case.cap_quality},
+            {"cap_order", the_case.cap_curve_order ? "curve" : "mesher"}};
 }
 
 void make_directory(const std::filesystem::path& directory) {
@@ -104,8 +105,8 @@ private:
         const HullReport checked = check_hull<D>(columns_of(slab.hull));
         clock.book("checking");
         if (!checked.clean()) {
-            throw GeometryError(fmt::format("the hull of slab {} has {} defects and was not written:\n{}", number,
-                                            checked.total(), findings_as_text(checked)));
+            throw GeometryError(fmt::format("the hull of slab {} has {} defects and was not written:\n{}",
+                                            number, checked.total(), findings_as_text(checked)));
         }
         commit(files);
         result_.cells += slab.hull.cells.size();
@@ -187,9 +188,12 @@ private:
 } // namespace
 
 RunResult run_case(const Case& the_case, const Listener& listener) {
-    return the_case.dimension == 2 ? Runner<2>{the_case, listener}.run() : Runner<3>{the_case, listener}.run();
+    return the_case.dimension == 2 ? Runner<2>{the_case, listener}.run()
+                                   : Runner<3>{the_case, listener}.run();
 }
 
-const char* version() { return SLABHULL_VERSION; }
+const char* version() {
+    return SLABHULL_VERSION;
+}
 
 } // namespace slabhull

@@ -60,7 +60,8 @@ PatchNumber number_of(const PatchList& patches, const std::string& name, const c
         for (const Patch& patch : patches) {
             known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", patch.name);
         }
-        throw UsageError(fmt::format("[{}.{}]: the domain has no patch \"{}\"; it has {}", table, name, name, known));
+        throw UsageError(
+            fmt::format("[{}.{}]: the domain has no patch \"{}\"; it has {}", table, name, name, known));
     }
     return number;
 }
@@ -69,8 +70,8 @@ PatchNumber number_of(const PatchList& patches, const std::string& name, const c
 template<int D>
 void require_embedded_levels(const Sweep<D>& sweep) {
     for (std::size_t level = 1; level < sweep.times.size(); ++level) {
-        require_domain_boundary(sweep.at(level), {fmt::format("moved boundary at t = {:.9g}", sweep.times[level]), {}},
-                                false);
+        require_domain_boundary(sweep.at(level),
+                                {fmt::format("moved boundary at t = {:.9g}", sweep.times[level]), {}}, false);
     }
 }
 
@@ -101,9 +102,10 @@ SlabSettings<D> settings_of(const Case& the_case, const PatchList& patches) {
         }
         moving.surface = projection_of<D>(spec);
         if (!moving.motion->map(the_case.start, the_case.end)) {
-            throw UsageError(fmt::format("[project.{}]: a projection surface moves with its patch's motion, and a "
-                                         "velocity formula does not say how a surface moves",
-                                         patch));
+            throw UsageError(
+                fmt::format("[project.{}]: a projection surface moves with its patch's motion, and a "
+                            "velocity formula does not say how a surface moves",
+                            patch));
         }
     }
     return settings;
@@ -113,8 +115,8 @@ template<int D>
 Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter& ids, StageClock& clock) {
     Slab<D> slab;
-    Sweep<D> sweep =
-        sweep_boundary<D>(initial, settings.motions, settings.motion_start, std::move(times), settings.trajectory);
+    Sweep<D> sweep = sweep_boundary<D>(initial, settings.motions, settings.motion_start, std::move(times),
+                                       settings.trajectory);
     clock.book("trajectories");
     require_embedded_levels(sweep);
     clock.book("boundary check");
@@ -130,9 +132,9 @@ Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double
 
 template SlabSettings<2> settings_of<2>(const Case&, const PatchList&);
 template SlabSettings<3> settings_of<3>(const Case&, const PatchList&);
-template Slab<2> build_slab<2>(const SpatialMesh<2>&, int, std::vector<double>, const SlabSettings<2>&, IdCounter&,
-                               StageClock&);
-template Slab<3> build_slab<3>(const SpatialMesh<3>&, int, std::vector<double>, const SlabSettings<3>&, IdCounter&,
-                               StageClock&);
+template Slab<2> build_slab<2>(const SpatialMesh<2>&, int, std::vector<double>, const SlabSettings<2>&,
+                               IdCounter&, StageClock&);
+template Slab<3> build_slab<3>(const SpatialMesh<3>&, int, std::vector<double>, const SlabSettings<3>&,
+                               IdCounter&, StageClock&);
 
 } // namespace slabhull

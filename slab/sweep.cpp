@@ -41,7 +41,8 @@ double extent(std::span<const Point<D>> points) {
 template<int D>
 class Sweeper {
 public:
-    Sweeper(const PatchMotions<D>& motions, double motion_start, const TrajectoryOptions& options, Sweep<D>& sweep)
+    Sweeper(const PatchMotions<D>& motions, double motion_start, const TrajectoryOptions& options,
+            Sweep<D>& sweep)
         : motions_{motions}, motion_start_{motion_start}, options_{options}, sweep_{sweep},
           tolerance_{1e-9 * extent<D>(sweep.surface.points)} {
         make_groups();
@@ -77,7 +78,8 @@ private:
         }
         for (auto& group : groups_) {
             std::sort(group.vertices.begin(), group.vertices.end());
-            group.vertices.erase(std::unique(group.vertices.begin(), group.vertices.end()), group.vertices.end());
+            group.vertices.erase(std::unique(group.vertices.begin(), group.vertices.end()),
+                                 group.vertices.end());
         }
     }
 
@@ -98,7 +100,8 @@ private:
             group.positions.push_back(before[v]);
         }
         if (group.moving != nullptr) {
-            advance<D>(*group.moving->motion, group.positions, sweep_.times[level - 1], sweep_.times[level], options_);
+            advance<D>(*group.moving->motion, group.positions, sweep_.times[level - 1], sweep_.times[level],
+                       options_);
         }
     }
 
@@ -127,8 +130,9 @@ private:
                 if (distance<D>(a.positions[i], b.positions[j]) > tolerance_) {
                     apart.push_back({"vertex", sweep_.cap_vertex[a.vertices[i]], names(a)});
                     if (apart.size() <= 8) {
-                        listed += fmt::format("{}{} at ({:.6g})", apart.size() > 1 ? ", " : "",
-                                              apart.back().number, fmt::join(sweep_.positions[0][a.vertices[i]], ", "));
+                        listed +=
+                            fmt::format("{}{} at ({:.6g})", apart.size() > 1 ? ", " : "", apart.back().number,
+                                        fmt::join(sweep_.positions[0][a.vertices[i]], ", "));
                     }
                 }
                 ++i;
@@ -138,9 +142,11 @@ private:
             }
         }
         throw GeometryError(
-            fmt::format("{} and {} share {} vertices that their motions take to different places by t = {}: {}{}. "
-                        "Give both the same motion there, or part them.",
-                        names(a), names(b), apart.size(), sweep_.times[level], listed, apart.size() > 8 ? " ..." : ""),
+            fmt::format(
+                "{} and {} share {} vertices that their motions take to different places by t = {}: {}{}. "
+                "Give both the same motion there, or part them.",
+                names(a), names(b), apart.size(), sweep_.times[level], listed,
+                apart.size() > 8 ? " ..." : ""),
             std::move(apart));
     }
 
@@ -171,8 +177,9 @@ private:
     static void merge(ProjectionReport& into, const ProjectionReport& more) {
         const std::size_t count = into.count + more.count;
         if (count > 0) {
-            into.mean = (into.mean * static_cast<double>(into.count) + more.mean * static_cast<double>(more.count)) /
-                        static_cast<double>(count);
+            into.mean =
+                (into.mean * static_cast<double>(into.count) + more.mean * static_cast<double>(more.count)) /
+                static_cast<double>(count);
         }
         into.largest = std::max(into.largest, more.largest);
         into.count = count;
@@ -237,9 +244,9 @@ template struct Sweep<2>;
 template struct Sweep<3>;
 template Surface<2> boundary_of<2>(const SpatialMesh<2>&, Array<Index>&);
 template Surface<3> boundary_of<3>(const SpatialMesh<3>&, Array<Index>&);
-template Sweep<2> sweep_boundary<2>(const SpatialMesh<2>&, const PatchMotions<2>&, double, std::vector<double>,
-                                    const TrajectoryOptions&);
-template Sweep<3> sweep_boundary<3>(const SpatialMesh<3>&, const PatchMotions<3>&, double, std::vector<double>,
-                                    const TrajectoryOptions&);
+template Sweep<2> sweep_boundary<2>(const SpatialMesh<2>&, const PatchMotions<2>&, double,
+                                    std::vector<double>, const TrajectoryOptions&);
+template Sweep<3> sweep_boundary<3>(const SpatialMesh<3>&, const PatchMotions<3>&, double,
+                                    std::vector<double>, const TrajectoryOptions&);
 
 } // namespace slabhull

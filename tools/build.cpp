@@ -42,8 +42,9 @@ int build(const BuildOptions& options) {
     const Stopwatch watch;
     const RunResult result = run_case(the_case, listener_for(options));
     if (!options.quiet) {
-        fmt::print("{}: {} simplices, {} points, {} slab{}, checked, in {:.1f} s\n", the_case.title, result.cells,
-                   result.points, the_case.slabs, the_case.slabs > 1 ? "s" : "", watch.seconds());
+        fmt::print("{}: {} simplices, {} points, {} slab{}, checked, in {:.1f} s\n", the_case.title,
+                   result.cells, result.points, the_case.slabs, the_case.slabs > 1 ? "s" : "",
+                   watch.seconds());
         for (const auto& file : result.files) {
             fmt::print("  {}\n", file.string());
         }
@@ -58,7 +59,9 @@ void add_build(CLI::App& program, int& exit_code) {
     CLI::App* command = program.add_subcommand("build", "Run a case: one or more slabs");
     command->add_option("CASE.toml", options->case_file, "The case file (docs/case-file.md)")->required();
     command->add_option("--out", options->directory, "Directory for the output, instead of the case's own");
-    command->add_option("--threads", options->threads, "Threads to use; 0 for all cores. The output does not depend on it")
+    command
+        ->add_option("--threads", options->threads,
+                     "Threads to use; 0 for all cores. The output does not depend on it")
         ->check(CLI::Range(0, 1024));
     command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
     command->footer("Example: slabhull build examples/ellipsoid.toml --out out/ellipsoid");

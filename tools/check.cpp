@@ -36,16 +36,17 @@ void print_report(const std::string& file, const HullReport& report) {
     const auto& counts = report.counts;
     const auto& cells = report.cells_by_region;
     const auto& measures = report.measure_by_region;
-    fmt::print("{}: hull of a slab in {}D+t, t = {} to {}\n", file, report.dimension, report.time[0], report.time[1]);
-    fmt::print("  {} vertices, {} edges, {} facets, {} cells (initial {}, side {}, terminating {})\n", counts.vertices,
-               counts.edges, counts.facets, counts.cells, cells[0], cells[1], cells[2]);
+    fmt::print("{}: hull of a slab in {}D+t, t = {} to {}\n", file, report.dimension, report.time[0],
+               report.time[1]);
+    fmt::print("  {} vertices, {} edges, {} facets, {} cells (initial {}, side {}, terminating {})\n",
+               counts.vertices, counts.edges, counts.facets, counts.cells, cells[0], cells[1], cells[2]);
     fmt::print("  Euler characteristic {}, {} component{}", counts.euler, counts.components,
                counts.components == 1 ? "" : "s");
     if (!report.betti.empty()) {
         fmt::print(", Betti numbers ({})", fmt::join(report.betti, ", "));
     }
-    fmt::print("\n  measure {:.10g} (initial {:.10g}, side {:.10g}, terminating {:.10g})\n", report.measure, measures[0],
-               measures[1], measures[2]);
+    fmt::print("\n  measure {:.10g} (initial {:.10g}, side {:.10g}, terminating {:.10g})\n", report.measure,
+               measures[0], measures[1], measures[2]);
     fmt::print("  encloses {:.10g}, |sum of normals| {:.3g}, dihedral angles {:.1f} to {:.1f} degrees\n",
                report.enclosed, report.closure, report.angles.smallest, report.angles.largest);
 }
@@ -54,15 +55,16 @@ void print_report(const std::string& file, const MeshReport& report) {
     fmt::print("{}: mesh of dimension {}\n", file, report.dimension);
     fmt::print("  {} vertices, {} cells, {} boundary facets, {} component{}\n", report.vertices, report.cells,
                report.boundary_facets, report.components, report.components == 1 ? "" : "s");
-    fmt::print("  measure {:.10g}, dihedral angles {:.1f} to {:.1f} degrees\n", report.measure, report.angles.smallest,
-               report.angles.largest);
+    fmt::print("  measure {:.10g}, dihedral angles {:.1f} to {:.1f} degrees\n", report.measure,
+               report.angles.smallest, report.angles.largest);
 }
 
 void print_summary(const EmbeddingSummary& embedding) {
-    fmt::print("  embedding: {} cells in {} pairs whose boxes meet, {} of them decided in rational numbers{}{}\n",
-               embedding.tested_cells, embedding.tested_pairs, embedding.exact_pairs,
-               embedding.caps_proven ? "; caps proven as a whole" : "",
-               embedding.all_listed ? "" : "; stopped, as there are many crossings");
+    fmt::print(
+        "  embedding: {} cells in {} pairs whose boxes meet, {} of them decided in rational numbers{}{}\n",
+        embedding.tested_cells, embedding.tested_pairs, embedding.exact_pairs,
+        embedding.caps_proven ? "; caps proven as a whole" : "",
+        embedding.all_listed ? "" : "; stopped, as there are many crossings");
 }
 
 template<class Report>
@@ -107,7 +109,8 @@ int check_soup(const CheckCommand& command, const io::Soup& soup, bool hull) {
         return tell(command, report, embedding);
     }
     if (command.embedding) {
-        throw UsageError{fmt::format("{}: a mesh in space; --embedding is for the hulls of slabs", command.file)};
+        throw UsageError{
+            fmt::format("{}: a mesh in space; --embedding is for the hulls of slabs", command.file)};
     }
     const MeshArrays<D> mesh = mesh_of_soup<D>(soup);
     return tell(command, check_mesh<D>(mesh.points, mesh.cells, options));
@@ -117,7 +120,8 @@ int check(const CheckCommand& command) {
     set_thread_count(command.threads);
     const io::Soup soup = io::read_mesh(command.file);
     const MeshKind kind = kind_of(soup);
-    return kind.dimension == 2 ? check_soup<2>(command, soup, kind.hull) : check_soup<3>(command, soup, kind.hull);
+    return kind.dimension == 2 ? check_soup<2>(command, soup, kind.hull)
+                               : check_soup<3>(command, soup, kind.hull);
 }
 
 } // namespace
@@ -130,8 +134,10 @@ void add_check(CLI::App& program, int& exit_code) {
     app->add_flag("--no-betti", command->no_betti, "Leave out the Betti numbers, the slowest part");
     app->add_flag("--embedding", command->embedding,
                   "For a hull: whether it crosses itself, in space or in time between its levels");
-    app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")->check(CLI::Range(0, 1024));
-    app->footer("Exit code 0: nothing found, 1: defects found.\nExample: slabhull check out/ellipsoid/slab_0000.vtu");
+    app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")
+        ->check(CLI::Range(0, 1024));
+    app->footer(
+        "Exit code 0: nothing found, 1: defects found.\nExample: slabhull check out/ellipsoid/slab_0000.vtu");
     app->callback([command, &exit_code] { exit_code = check(*command); });
 }
 

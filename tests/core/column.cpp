@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slabhull/core/array.h"
 #include "slabhull/core/column.h"
+#include "slabhull/core/array.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/index.h"
 

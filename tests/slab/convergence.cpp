@@ -35,7 +35,8 @@ Row run_level(const std::string& name, int level) {
     const auto relative = [](double ours, double theirs) { return std::abs(ours / theirs - 1); };
     return {static_cast<double>(report.counts.cells),
             {relative(report.measure, exact.hull()), relative(report.measure_by_region[0], exact.initial),
-             relative(report.measure_by_region[1], exact.side), relative(report.measure_by_region[2], exact.terminating),
+             relative(report.measure_by_region[1], exact.side),
+             relative(report.measure_by_region[2], exact.terminating),
              relative(report.enclosed, exact.enclosed)}};
 }
 

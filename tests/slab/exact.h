@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact measures of the paper's six experiments, t in [0, 1]. The lateral measure of a turning ellipsoid is the integral
-// of sqrt(1 + v_n^2) over its surface, v_n the normal velocity, by quadrature.
+// Exact measures of the paper's six experiments, t in [0, 1]. The lateral measure of a turning ellipsoid is
+// the integral of sqrt(1 + v_n^2) over its surface, v_n the normal velocity, by quadrature.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct Measures {
     double hull() const { return initial + side + terminating; }
 };
 
-/// Integral of sqrt(1 + v_n^2) over the ellipsoid with semi-axes a that turns about z at `rate`: Gauss-Legendre in
-/// cos(theta), trapezoidal (spectral for a periodic integrand) in phi.
+/// Integral of sqrt(1 + v_n^2) over the ellipsoid with semi-axes a that turns about z at `rate`:
+/// Gauss-Legendre in cos(theta), trapezoidal (spectral for a periodic integrand) in phi.
 inline double turning_side(const std::array<double, 3>& a, double rate) {
     constexpr int rings = 400;
     constexpr int sectors = 800;
@@ -85,7 +85,8 @@ inline Measures measures(const std::string& name) {
     }
     if (name == "tandem-ellipsoids") {
         const double cap = 20.0 * 20 * 20 - 2 * body;
-        return {cap, 6 * 20.0 * 20 + turning_side({1, 3, 2}, quarter) + turning_side({3, 1, 2}, quarter), cap, cap};
+        return {cap, 6 * 20.0 * 20 + turning_side({1, 3, 2}, quarter) + turning_side({3, 1, 2}, quarter), cap,
+                cap};
     }
     throw std::invalid_argument(name);
 }

@@ -38,7 +38,9 @@ March<D> march(const Case& the_case, const std::vector<double>& slab_times) {
 }
 
 /// A coarse one of the experiments.
-Case coarse(const std::string& name) { return experiment_at(name, name.find("circle") != std::string::npos ? 0.8 : 0.3); }
+Case coarse(const std::string& name) {
+    return experiment_at(name, name.find("circle") != std::string::npos ? 0.8 : 0.3);
+}
 
 template<int D>
 std::array<Point<D>, 2> bounds(const SpatialMesh<D>& cap) {
@@ -64,7 +66,8 @@ void check_march(const March<D>& m) {
             FAIL_CHECK(finding.text);
         }
         const SpatialMesh<D>& cap = m.caps[s];
-        for (std::size_t v = 0; v < cap.points.size(); ++v) { // the initial cap is the cap before, bit for bit
+        for (std::size_t v = 0; v < cap.points.size();
+             ++v) { // the initial cap is the cap before, bit for bit
             REQUIRE(std::equal(cap.points[v].begin(), cap.points[v].end(), hull.points[v].begin()));
             REQUIRE(hull.vertex_ids[v] == cap.vertex_ids[v]);
             REQUIRE(hull.track_ids[v] == cap.track_ids[v]);
@@ -79,8 +82,8 @@ void check_march(const March<D>& m) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE_SIG("three slabs of every experiment are sound hulls with ids that are never reused", "[slab]",
-                       ((int D), D), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("three slabs of every experiment are sound hulls with ids that are never reused",
+                       "[slab]", ((int D), D), 2, 3) {
     const std::vector<std::string> names =
         D == 2 ? std::vector<std::string>{"circle", "expanding-circle"}
                : std::vector<std::string>{"sphere", "expanding-sphere", "ellipsoid", "tandem-ellipsoids"};
@@ -116,7 +119,8 @@ TEST_CASE("shifting a standing domain in time changes nothing but the times", "[
     }
 }
 
-TEST_CASE("tracks follow boundary vertices: a turning body's stay on its surface, the walls' stand still", "[slab]") {
+TEST_CASE("tracks follow boundary vertices: a turning body's stay on its surface, the walls' stand still",
+          "[slab]") {
     const auto m = march<3>(coarse("ellipsoid"), {0.0, 1.0});
     const Hull<3>& hull = m.hulls[0];
     std::map<TrackId, std::vector<Point<4>>> tracks;
@@ -152,15 +156,16 @@ TEST_CASE("a body that expands keeps its shape, and the box around it does not m
     CHECK(nearest == Approx(1.25).epsilon(1e-14));
 }
 
-TEST_CASE("a motion that drives the body through the wall is refused with the time and the patches", "[slab]") {
+TEST_CASE("a motion that drives the body through the wall is refused with the time and the patches",
+          "[slab]") {
     Case the_case = coarse("circle");
     MotionSpec away;
     away.kind = MotionSpec::Kind::translation;
     away.velocity = {20, 0};
     the_case.motions["body"] = away;
     the_case.projections.clear();
-    CHECK_THROWS_WITH(march<2>(the_case, {0.0, 0.5}), Catch::Contains("t = 0.25") && Catch::Contains("body") &&
-                                                          Catch::Contains("walls"));
+    CHECK_THROWS_WITH(march<2>(the_case, {0.0, 0.5}),
+                      Catch::Contains("t = 0.25") && Catch::Contains("body") && Catch::Contains("walls"));
 }
 
 TEST_CASE("a patch that the domain has not is refused with those that it has", "[slab]") {

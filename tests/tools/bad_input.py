@@ -59,6 +59,7 @@ class CaseFiles(ProgramTest):
             ("[trajectory]\nscheme = \"rk5\"\n", "trajectory.scheme"),
             ("[motion.body]\nkind = \"rotation\"\nrate = 1\n", "motion.body.centre"),
             ("[motion.body]\nkind = \"expansion\"\ncentre = [0, 0]\nrate = -1.5\n", "motion.body.rate"),
+            ("[cap]\norder = \"hilbert\"\n", "cap.order"),
             ("[output]\nformats = [\"xyz\"]\n", "output.formats"),
         ]:
             with self.subTest(text):

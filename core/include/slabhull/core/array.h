@@ -46,7 +46,8 @@ public:
     friend bool operator==(PageAllocator, PageAllocator) { return true; }
 };
 
-/// A std::vector for mesh-sized data. Beware: `Array<int> a(n)` and `a.resize(n)` do not clear; `assign` does.
+/// A std::vector for mesh-sized data. Beware: `Array<int> a(n)` and `a.resize(n)` do not clear; `assign`
+/// does.
 template<class T>
 using Array = std::vector<T, PageAllocator<T>>;
 

@@ -9,8 +9,8 @@
 
 namespace slabhull {
 
-/// A column of values that is stored somewhere or computed piece by piece when asked for: writers and checkers
-/// take columns, so that no second copy of a mesh is made. An empty column stands for "not given".
+/// A column of values that is stored somewhere or computed piece by piece when asked for: writers and
+/// checkers take columns, so that no second copy of a mesh is made. An empty column stands for "not given".
 template<class T>
 class Column {
 public:

@@ -18,7 +18,8 @@ struct Entity {
     std::string patch; ///< empty where there is none
 };
 
-/// Refused work. What went wrong, where, and what to do about it are in what(); `entities` names the culprits.
+/// Refused work. What went wrong, where, and what to do about it are in what(); `entities` names the
+/// culprits.
 class Error : public std::runtime_error {
 public:
     Error(Failure failure, const std::string& message, std::vector<Entity> at_fault = {})

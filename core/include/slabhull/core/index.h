@@ -12,7 +12,8 @@ namespace slabhull {
 using Index = std::uint32_t;
 inline constexpr Index no_index = std::numeric_limits<Index>::max();
 
-/// Persistent id of a space-time point: given once, never reused. 64 bits because a march never stops counting.
+/// Persistent id of a space-time point: given once, never reused. 64 bits because a march never stops
+/// counting.
 using PersistentId = std::int64_t;
 /// Track of a boundary vertex through time; `no_track` for points off the tracks.
 using TrackId = std::int64_t;

@@ -39,10 +39,10 @@ Soup read_curve(const std::filesystem::path& path);
 /// UInt8, each text ended by a zero byte (meshio opens no file with a string array of VTK's own kind);
 /// read_vtu() gives them back.
 void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh);
-/// MSH 4.1 binary: dense tags from 1, one block of nodes, one of elements per group (groups may share a number, and
-/// then an entity), `$Entities` and `$PhysicalNames`; point data as `$NodeData`, cell data as `$ElementData` (components > 1 become name_0,
-/// name_1 ..). Throws LimitError when data have more rows than the format's 32 bits count,
-/// std::invalid_argument when the groups do not hold all cells in order.
+/// MSH 4.1 binary: dense tags from 1, one block of nodes, one of elements per group (groups may share a
+/// number, and then an entity), `$Entities` and `$PhysicalNames`; point data as `$NodeData`, cell data as
+/// `$ElementData` (components > 1 become name_0, name_1 ..). Throws LimitError when data have more rows than
+/// the format's 32 bits count, std::invalid_argument when the groups do not hold all cells in order.
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
 /// The same into a file that is the caller's to commit.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh);

@@ -71,7 +71,8 @@ struct ProjectionSpec {
     double radius = 0; ///< of a cylinder
 };
 
-/// A case as a case file says it (docs/case-file.md), with everything checked that can be without reading other files.
+/// A case as a case file says it (docs/case-file.md), with everything checked that can be without reading
+/// other files.
 struct Case {
     std::string title;
     int dimension = 3;

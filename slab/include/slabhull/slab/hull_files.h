@@ -14,8 +14,8 @@
 
 namespace slabhull {
 
-/// Writes a hull in `format`, "vtu" or "msh", with the arrays of docs/formats.md. Streams: no second copy is made.
-/// The file is the caller's to commit. Throws OutputError.
+/// Writes a hull in `format`, "vtu" or "msh", with the arrays of docs/formats.md. Streams: no second copy is
+/// made. The file is the caller's to commit. Throws OutputError.
 template<int D>
 void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& format);
 

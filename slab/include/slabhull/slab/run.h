@@ -15,9 +15,9 @@ struct RunResult {
     std::size_t points = 0;
 };
 
-/// Runs a case: builds, checks and writes each of its slabs, then report.json (docs/case-file.md lists the files).
-/// A slab is written only when its check found nothing; slabs written before a later one fails stay, with a report.
-/// Throws the errors of the steps.
+/// Runs a case: builds, checks and writes each of its slabs, then report.json (docs/case-file.md lists the
+/// files). A slab is written only when its check found nothing; slabs written before a later one fails stay,
+/// with a report. Throws the errors of the steps.
 RunResult run_case(const Case& the_case, const Listener& listener);
 
 /// The version of this library, such as "0.1.0".

@@ -36,10 +36,10 @@ CapOptions cap_options(const Case& the_case);
 template<int D>
 SlabSettings<D> settings_of(const Case& the_case, const PatchList& patches);
 
-/// Builds slab `number` over the levels `times` on the initial cap: the seven steps of the method. The hull is not
-/// checked as a whole (check_hull() does); the boundary is, on every level, and so is the terminating cap.
-/// Throws GeometryError naming what and where: motions that disagree, a boundary that crosses itself or leaves its box
-/// (facets by number and patch, with the time), a cap that cannot be meshed.
+/// Builds slab `number` over the levels `times` on the initial cap: the seven steps of the method. The hull
+/// is not checked as a whole (check_hull() does); the boundary is, on every level, and so is the terminating
+/// cap. Throws GeometryError naming what and where: motions that disagree, a boundary that crosses itself or
+/// leaves its box (facets by number and patch, with the time), a cap that cannot be meshed.
 template<int D>
 Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter& ids, StageClock& clock);

@@ -29,11 +29,12 @@ using PatchMotions = std::map<PatchNumber, MovingPatch<D>>;
 /// The boundary of the domain on every level of a slab: step 3 of the method.
 template<int D>
 struct Sweep {
-    Surface<D> surface;        ///< at the first level; its vertices are the swept ones
-    Array<Index> cap_vertex;   ///< vertex of the initial cap that each of them is
-    std::vector<double> times; ///< of the levels, ascending
+    Surface<D> surface;                     ///< at the first level; its vertices are the swept ones
+    Array<Index> cap_vertex;                ///< vertex of the initial cap that each of them is
+    std::vector<double> times;              ///< of the levels, ascending
     std::vector<Array<Point<D>>> positions; ///< by level, then by vertex; the first is surface.points
-    std::map<PatchNumber, ProjectionReport> projected; ///< how far projection moved each patch, over all levels
+    std::map<PatchNumber, ProjectionReport>
+        projected; ///< how far projection moved each patch, over all levels
 
     std::size_t layers() const { return times.size() - 1; }
     /// The surface at a level.
@@ -45,10 +46,10 @@ struct Sweep {
 template<int D>
 Surface<D> boundary_of(const SpatialMesh<D>& cap, Array<Index>& cap_vertex);
 
-/// Sweeps the boundary of `cap` through the levels `times`. `motion_start` is the time that projection surfaces are
-/// given at: they are placed by the motion from then to each level.
-/// A vertex shared by patches goes with all their motions, which must agree there.
-/// Throws GeometryError naming the patches and the vertices where motions disagree.
+/// Sweeps the boundary of `cap` through the levels `times`. `motion_start` is the time that projection
+/// surfaces are given at: they are placed by the motion from then to each level. A vertex shared by patches
+/// goes with all their motions, which must agree there. Throws GeometryError naming the patches and the
+/// vertices where motions disagree.
 template<int D>
 Sweep<D> sweep_boundary(const SpatialMesh<D>& cap, const PatchMotions<D>& motions, double motion_start,
                         std::vector<double> times, const TrajectoryOptions& options);

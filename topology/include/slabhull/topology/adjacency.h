@@ -27,16 +27,16 @@ struct FacetDefect {
 /// Adjacency of D-simplices across their facets.
 template<int D>
 struct Adjacency {
-    /// neighbors[c][i] is the cell across the facet of c opposite to its vertex i; no_index where that facet is
-    /// open or overfull. Disoriented pairs are joined.
+    /// neighbors[c][i] is the cell across the facet of c opposite to its vertex i; no_index where that facet
+    /// is open or overfull. Disoriented pairs are joined.
     Array<Neighbors<D>> neighbors;
     /// Every facet at fault, sorted by facet.
     std::vector<FacetDefect<D>> defects;
 };
 
 /// Adjacency of a soup of simplices, from vertex numbers alone (D = 1, 2, 3).
-/// Needs: vertices below `vertex_count`, no cell with a repeated vertex (such a cell's facets may pair wrongly).
-/// Cost: near-linear. The result does not depend on the number of threads.
+/// Needs: vertices below `vertex_count`, no cell with a repeated vertex (such a cell's facets may pair
+/// wrongly). Cost: near-linear. The result does not depend on the number of threads.
 template<int D>
 Adjacency<D> build_adjacency(std::span<const Simplex<D>> cells, std::size_t vertex_count);
 

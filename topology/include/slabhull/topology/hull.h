@@ -16,9 +16,10 @@ enum class Region : int { initial = 0, intermediate = 1, terminating = 2 };
 
 /// The boundary of one space-time slab: a closed D-manifold of D-simplices in R^(D+1), time last.
 ///
-/// Cells are stored in the order initial cap, side, terminating cap; the side by layer, then by boundary facet,
-/// then by place in the prism's split. So region, layer and patch of a cell follow from its number and cost nothing.
-/// Each simplex is ordered so that its normal N, det[e_1 .. e_D, N] > 0, points out of the slab.
+/// Cells are stored in the order initial cap, side, terminating cap; the side by layer, then by boundary
+/// facet, then by place in the prism's split. So region, layer and patch of a cell follow from its number and
+/// cost nothing. Each simplex is ordered so that its normal N, det[e_1 .. e_D, N] > 0, points out of the
+/// slab.
 template<int D>
 struct Hull {
     Array<Point<D + 1>> points;

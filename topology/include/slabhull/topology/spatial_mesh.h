@@ -9,9 +9,9 @@
 
 namespace slabhull {
 
-/// The boundary of a spatial domain: a closed (D-1)-manifold of facets. Outward orientation: for the edges e_i of a
-/// facet and its outward normal n, det[e_1 .. e_(D-1), n] > 0. So for D = 3 the right-hand rule gives n, and for
-/// D = 2 the domain lies to the right of each edge.
+/// The boundary of a spatial domain: a closed (D-1)-manifold of facets. Outward orientation: for the edges
+/// e_i of a facet and its outward normal n, det[e_1 .. e_(D-1), n] > 0. So for D = 3 the right-hand rule
+/// gives n, and for D = 2 the domain lies to the right of each edge.
 template<int D>
 struct Surface {
     Array<Point<D>> points;
