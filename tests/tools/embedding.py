@@ -64,7 +64,8 @@ class Embedding(ProgramTest):
         self.assertEqual([("cell", int(number)) for number, _ in cells],
                          [(e["kind"], e["number"]) for e in finding["entities"]])
         self.assertEqual({patch for _, patch in cells}, {"a", "b"})
-        time, *place = map(float, re.search(r"meet at t = (\S+) near \((.*)\)$", text).expand(r"\1 \2").replace(",", "").split())
+        meeting = re.search(r"meet at t = (\S+) near \((.*)\)$", text)
+        time, place = float(meeting[1]), [float(x) for x in meeting[2].split(", ")]
         for x, y in ((time - 4, 0), (4 - time, OFFSET)):
             off_centre = abs(place[0] - x) + abs(place[1] - y) + sum(map(abs, place[2:]))
             self.assertAlmostEqual(off_centre, RADIUS, delta=1e-4)

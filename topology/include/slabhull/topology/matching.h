@@ -14,8 +14,9 @@ namespace slabhull {
 ///
 /// The dual graph of a closed triangulated surface is cubic and has no bridge, so there is one (Petersen,
 /// Acta Mathematica 15, 1891). Throws GeometryError naming triangles that are left over; a surface with open
-/// edges may have no perfect matching. Depends on the numbering of triangles only, not on where they are.
-/// Cost: near-linear in practice, 0.3 microseconds per triangle; single-threaded.
+/// edges may have no perfect matching. The same `neighbors` give the same matching.
+/// Cost: near-linear in practice. For a million triangles 0.03 s when they are numbered along the surface,
+/// 0.5 to 2 s when numbered at random. Single-threaded.
 Array<Index> perfect_matching(std::span<const Neighbors<2>> neighbors);
 
 } // namespace slabhull
