@@ -3,6 +3,8 @@
 
 #include "slabhull/core/parallel.h"
 
+#include "vector_algebra.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,23 +15,9 @@ namespace {
 
 constexpr std::size_t cells_per_piece = 1 << 15;
 
-template<std::size_t N>
-std::array<double, N> minus(const std::array<double, N>& a, const std::array<double, N>& b) {
-    std::array<double, N> difference;
-    for (std::size_t i = 0; i < N; ++i) {
-        difference[i] = a[i] - b[i];
-    }
-    return difference;
-}
-
-template<std::size_t N>
-double dot(const std::array<double, N>& a, const std::array<double, N>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < N; ++i) {
-        sum += a[i] * b[i];
-    }
-    return sum;
-}
+using detail::dot;
+using detail::minus;
+using detail::times;
 
 Point<3> cross(const Point<3>& a, const Point<3>& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -42,14 +30,6 @@ Point<4> cross(const Point<4>& a, const Point<4>& b, const Point<4>& c) {
     const double yz = minor(1, 2), yt = minor(1, 3), zt = minor(2, 3);
     return {-(yz * c[3] - yt * c[2] + zt * c[1]), xz * c[3] - xt * c[2] + zt * c[0],
             -(xy * c[3] - xt * c[1] + yt * c[0]), xy * c[2] - xz * c[1] + yz * c[0]};
-}
-
-template<std::size_t N>
-std::array<double, N> scaled(std::array<double, N> a, double factor) {
-    for (double& x : a) {
-        x *= factor;
-    }
-    return a;
 }
 
 /// Sum with Neumaier's correction (Zeitschrift fuer angewandte Mathematik und Mechanik 54, 1974).
@@ -223,9 +203,9 @@ Point<D + 1> simplex_normal(const std::array<Point<D + 1>, D + 1>& corners) {
     const auto u = minus(corners[1], corners[0]);
     const auto v = minus(corners[2], corners[0]);
     if constexpr (D == 2) {
-        return scaled(cross(u, v), 1.0 / 2);
+        return times(1.0 / 2, cross(u, v));
     } else {
-        return scaled(cross(u, v, minus(corners[3], corners[0])), 1.0 / 6);
+        return times(1.0 / 6, cross(u, v, minus(corners[3], corners[0])));
     }
 }
 

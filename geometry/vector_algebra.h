@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <string>
 
-// Small vectors of R^D, for the .cpp files of motions, projections and shapes.
+// Small vectors of R^D, for the .cpp files of this room.
 namespace slabhull::detail {
 
 template<std::size_t N>

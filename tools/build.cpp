@@ -42,9 +42,9 @@ int build(const BuildOptions& options) {
     const Stopwatch watch;
     const RunResult result = run_case(the_case, listener_for(options));
     if (!options.quiet) {
-        fmt::print("{}: {} simplices, {} points, {} slab{}, checked, in {:.1f} s\n", the_case.title,
-                   result.cells, result.points, the_case.slabs, the_case.slabs > 1 ? "s" : "",
-                   watch.seconds());
+        fmt::print("{}: {} simplices, {} points, {} slab{}, checked, in {:.1f} s\n",
+                   the_case.title.empty() ? options.case_file : the_case.title, result.cells, result.points,
+                   the_case.slabs, the_case.slabs > 1 ? "s" : "", watch.seconds());
         for (const auto& file : result.files) {
             fmt::print("  {}\n", file.string());
         }
