@@ -217,12 +217,12 @@ private:
 
     void read_trajectory() {
         KeyTable table = root_.optional_table("trajectory");
-        if (table.has("scheme")) {
-            case_.trajectory.scheme = table.choice<Scheme>("scheme", {{"euler", Scheme::euler},
-                                                                      {"heun", Scheme::heun},
-                                                                      {"rk4", Scheme::rk4},
-                                                                      {"dopri5", Scheme::dopri5},
-                                                                      {"exact", Scheme::exact}});
+        if (const auto name = table.optional_text("scheme")) {
+            try {
+                case_.trajectory.scheme = scheme_from_name(*name);
+            } catch (const UsageError& error) {
+                table.fail("scheme", error.what());
+            }
         }
         if (table.has("substeps")) {
             case_.trajectory.substeps = table.integer("substeps", 1, 1'000'000);

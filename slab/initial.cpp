@@ -9,6 +9,7 @@
 #include "slabhull/topology/adjacency.h"
 
 #include "mesh_soup.h"
+#include "numbers.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -17,13 +18,6 @@
 namespace slabhull {
 
 namespace {
-
-template<int D>
-Point<D> as_point(const Numbers& numbers) {
-    Point<D> point;
-    std::copy_n(numbers.begin(), D, point.begin());
-    return point;
-}
 
 /// Gives every patch name a number, in the order in which they come.
 class PatchNumbers {

@@ -4,19 +4,14 @@
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/embedding.h"
 
+#include "numbers.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace slabhull {
 
 namespace {
-
-template<int D>
-Point<D> as_point(const Numbers& numbers) {
-    Point<D> point{};
-    std::copy_n(numbers.begin(), std::min<std::size_t>(D, numbers.size()), point.begin());
-    return point;
-}
 
 template<int D>
 MotionPointer<D> motion_of(const MotionSpec& spec, double start) {
