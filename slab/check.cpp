@@ -54,12 +54,21 @@ private:
         report_.counts = manifold.counts;
         manifold_ = manifold.clean();
         sealed_ = view_.adjacency.defects.empty();
-        if (options_.betti && manifold_) {
+        if (options_.betti_cells > 0) {
+            examine_homology();
+        }
+    }
+
+    void examine_homology() {
+        if (view_.cells().size() > options_.betti_cells) {
+            findings_.skip("Betti numbers",
+                           fmt::format("the hull has more than {} cells", options_.betti_cells));
+        } else if (!manifold_) {
+            findings_.skip("Betti numbers", "the hull is not a manifold");
+        } else {
             const BettiNumbers<D> betti =
                 betti_numbers<D>(view_.cells(), view_.points().size(), view_.adjacency.neighbors);
             report_.betti.assign(betti.begin(), betti.end());
-        } else if (options_.betti) {
-            findings_.skip("Betti numbers", "the hull is not a manifold");
         }
     }
 

@@ -7,8 +7,10 @@
 #include "slabhull/slab/check_embedding.h"
 #include "slabhull/slab/hull_files.h"
 #include "slabhull/slab/report.h"
+#include "slabhull/topology/homology.h"
 
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -20,7 +22,7 @@ namespace {
 struct CheckCommand {
     std::string file;
     bool json = false;
-    bool no_betti = false;
+    std::optional<bool> betti; ///< empty: as far as it is practical
     bool embedding = false;
     int threads = 0;
 };
@@ -87,10 +89,17 @@ int tell(const CheckCommand& command, const Report& report,
     return report.clean() ? clean : defects_found;
 }
 
+std::size_t betti_limit(std::optional<bool> wanted) {
+    if (!wanted) {
+        return practical_betti_cells;
+    }
+    return *wanted ? std::numeric_limits<std::size_t>::max() : 0;
+}
+
 template<int D>
 int check_soup(const CheckCommand& command, const io::Soup& soup, bool hull) {
     CheckOptions options;
-    options.betti = !command.no_betti;
+    options.betti_cells = betti_limit(command.betti);
     const io::SimplexBlock& block = soup.simplices[D];
     if (!soup.point_tags.empty()) {
         options.vertex_number = [&soup](Index v) { return soup.point_tag(v); };
@@ -131,7 +140,10 @@ void add_check(CLI::App& program, int& exit_code) {
     CLI::App* app = program.add_subcommand("check", "Validate a mesh or hull, list what is wrong");
     app->add_option("FILE", command->file, "A hull or mesh: VTU or MSH")->required();
     app->add_flag("--json", command->json, "One JSON document on stdout");
-    app->add_flag("--no-betti", command->no_betti, "Leave out the Betti numbers, the slowest part");
+    app->add_flag(
+        "--betti,!--no-betti", command->betti,
+        fmt::format("Betti numbers, the slowest part: compute them, or not; by default up to {} cells",
+                    practical_betti_cells));
     app->add_flag("--embedding", command->embedding,
                   "For a hull: whether it crosses itself, in space or in time between its levels");
     app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")

@@ -5,7 +5,7 @@
 #include "link.h"
 #include "slabhull/core/parallel.h"
 #include "sorted_cell.h"
-#include "star.h"
+#include "star_counter.h"
 #include "union_find.h"
 
 #include <fmt/format.h>
@@ -217,12 +217,14 @@ private:
     // ------------------------------------------------------------------------------------------------
 
     struct Usage {
-        std::vector<Index> cells; ///< how many use each vertex
-        std::vector<Index> one;   ///< one of them
+        Array<Index> cells; ///< how many use each vertex
+        Array<Index> one;   ///< one of them
     };
 
     Usage count_usage() const {
-        Usage usage{std::vector<Index>(vertex_count_, 0), std::vector<Index>(vertex_count_, no_index)};
+        Usage usage;
+        usage.cells.assign(vertex_count_, 0);
+        usage.one.assign(vertex_count_, no_index);
         parallel_for(cells_.size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
                 each_vertex(cells_[c], [&](Index v) {
@@ -239,45 +241,36 @@ private:
         PieceLists<Index> unused(vertex_count_, vertices_per_piece);
         PieceLists<Index> suspects(vertex_count_, vertices_per_piece);
         std::atomic<std::size_t> link_vertices{0};
+        Lender<StarCounter<D>> counters;
         parallel_for(vertex_count_, vertices_per_piece, [&](std::size_t begin, std::size_t end) {
-            StarWalker<D> walker{cells_, adjacency_.neighbors};
-            LocalNumbering link;
+            auto stars = counters.take([&] {
+                return StarCounter<D>{cells_, adjacency_.neighbors, vertex_count_};
+            });
             std::size_t in_links = 0;
             for (std::size_t v = begin; v < end; ++v) {
                 const auto vertex = static_cast<Index>(v);
                 if (usage.cells[v] == 0) {
                     unused.at(begin).push_back(vertex);
-                } else if (is_sound(vertex, walker.walk(vertex, usage.one[v]), usage.cells[v], link)) {
-                    in_links += link.size();
+                    continue;
+                }
+                const auto star = stars->count(vertex, usage.one[v]);
+                if (is_sound(star, usage.cells[v])) {
+                    in_links += star.vertices;
                 } else {
                     suspects.at(begin).push_back(vertex);
                 }
             }
             link_vertices += in_links;
+            counters.give_back(std::move(stars));
         });
         report_unused(unused.joined());
         link_vertices += examine_suspects(suspects.joined());
         report_.counts.edges = D == 2 ? report_.counts.facets : link_vertices / 2;
     }
 
-    /// Leaves the vertices of the link in `link`. May doubt a sound vertex of an open manifold, never trusts
-    /// a bad one.
-    bool is_sound(Index vertex, std::span<const Index> star, std::size_t uses, LocalNumbering& link) const {
-        link.clear();
-        if (star.size() != uses) {
-            return false;
-        }
-        if constexpr (D == 2) {
-            return true;
-        }
-        for (const Index c : star) {
-            for (const Index w : cells_[c]) {
-                if (w != vertex) {
-                    link.number(w);
-                }
-            }
-        }
-        return 2 * link.size() == star.size() + 4;
+    /// May doubt a sound vertex of an open manifold, never trusts a bad one.
+    static bool is_sound(const typename StarCounter<D>::Count& star, std::size_t uses) {
+        return star.cells == uses && (D == 2 || 2 * star.vertices == star.cells + 4);
     }
 
     void report_unused(const std::vector<Index>& unused) {

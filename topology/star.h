@@ -14,60 +14,61 @@ namespace slabhull {
 /// sets.
 class LocalNumbering {
 public:
-    LocalNumbering() : table_(64, 0) {}
+    LocalNumbering() : table_(256), keys_(table_.size()) {}
 
     void clear() {
-        for (const Index slot : slots_) {
-            table_[slot] = 0;
+        size_ = 0;
+        if (++epoch_ == 0) { // slots of the first epoch would seem to be of this one
+            table_.assign(table_.size(), Slot{});
+            epoch_ = 1;
         }
-        slots_.clear();
-        keys_.clear();
     }
 
     /// Number of `key`; a new one gets the next.
     Index number(Index key) {
-        Index slot = home(key);
-        while (table_[slot] != 0) {
-            if (keys_[table_[slot] - 1] == key) {
-                return table_[slot] - 1;
+        Index at = home(key);
+        while (table_[at].epoch == epoch_) {
+            if (table_[at].key == key) {
+                return table_[at].number;
             }
-            slot = (slot + 1) & mask();
+            at = (at + 1) & mask();
         }
-        return append(key, slot);
+        table_[at] = {key, epoch_, size_};
+        keys_[size_++] = key;
+        if (4 * std::size_t{size_} > table_.size()) {
+            grow();
+        }
+        return size_ - 1;
     }
 
-    std::span<const Index> keys() const { return keys_; }
-    std::size_t size() const { return keys_.size(); }
+    std::span<const Index> keys() const { return {keys_.data(), size_}; }
+    std::size_t size() const { return size_; }
 
 private:
+    /// Taken when its epoch is the present one, so that clearing costs nothing.
+    struct Slot {
+        Index key = 0;
+        Index epoch = 0;
+        Index number = 0;
+    };
+
     Index mask() const { return static_cast<Index>(table_.size() - 1); }
     Index home(Index key) const { return static_cast<Index>((key * 0x9E3779B97F4A7C15u) >> 32) & mask(); }
 
-    Index append(Index key, Index slot) {
-        keys_.push_back(key);
-        table_[slot] = static_cast<Index>(keys_.size());
-        slots_.push_back(slot);
-        if (2 * keys_.size() > table_.size()) {
-            grow();
-        }
-        return static_cast<Index>(keys_.size() - 1);
-    }
-
     void grow() {
-        table_.assign(4 * table_.size(), 0);
-        for (std::size_t k = 0; k < keys_.size(); ++k) {
-            Index slot = home(keys_[k]);
-            while (table_[slot] != 0) {
-                slot = (slot + 1) & mask();
-            }
-            table_[slot] = static_cast<Index>(k + 1);
-            slots_[k] = slot;
+        const std::vector<Index> keys{keys_.begin(), keys_.begin() + size_};
+        table_.assign(4 * table_.size(), Slot{});
+        keys_.resize(table_.size());
+        size_ = 0;
+        for (const Index key : keys) {
+            number(key);
         }
     }
 
-    std::vector<Index> table_; ///< number + 1, or 0 for a free slot
-    std::vector<Index> slots_; ///< where each key is
-    std::vector<Index> keys_;
+    std::vector<Slot> table_;
+    std::vector<Index> keys_; ///< the first size_ of them
+    Index size_ = 0;
+    Index epoch_ = 1;
 };
 
 /// Walks the star of a vertex, from cell to cell through the facets at the vertex.

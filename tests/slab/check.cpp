@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/check.h"
+#include "slabhull/topology/homology.h"
 
 #include "slab/specimens.h"
 #include "slabhull/core/parallel.h"
@@ -196,7 +197,7 @@ TEMPLATE_TEST_CASE_SIG("the report counts and measures", "", ((int D), D), 2, 3)
 }
 
 TEST_CASE("Betti numbers tell the number of bodies") {
-    const CheckOptions with_betti{true, 20, {}, {}};
+    const CheckOptions with_betti{practical_betti_cells, 20, {}, {}};
     const auto betti = [&](const auto& hull) { return check_hull(columns_of(hull), with_betti).betti; };
     using Numbers = std::vector<std::size_t>;
     CHECK(betti(specimens::swept(specimens::full_box<2>(2), 1)) == Numbers{1, 0, 1});
@@ -205,6 +206,20 @@ TEST_CASE("Betti numbers tell the number of bodies") {
     CHECK(betti(specimens::swept(specimens::full_box<3>(2), 1)) == Numbers{1, 0, 0, 1});
     CHECK(betti(specimens::swept(specimens::box_with_body<3>(), 2)) == Numbers{1, 1, 1, 1});
     CHECK(betti(specimens::swept(specimens::box_with_two_bodies<3>(), 1)) == Numbers{1, 2, 2, 1});
+}
+
+TEST_CASE("Betti numbers of a hull above the wanted size are left out, and that is said") {
+    const auto hull = specimens::swept(specimens::full_box<3>(2), 1);
+    CheckOptions options;
+    CHECK(check_hull(columns_of(hull), options).skipped.empty());
+    options.betti_cells = hull.cells.size();
+    CHECK(check_hull(columns_of(hull), options).betti.size() == 4);
+    --options.betti_cells;
+    const HullReport report = check_hull(columns_of(hull), options);
+    CHECK(report.betti.empty());
+    REQUIRE(report.skipped.size() == 1);
+    CHECK(report.skipped[0].find("Betti numbers") == 0);
+    CHECK(report.clean());
 }
 
 TEMPLATE_TEST_CASE_SIG("the report does not depend on the order of vertices and cells", "", ((int D), D), 2,

@@ -4,6 +4,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/initial.h"
+#include "slabhull/topology/homology.h"
 
 #include <catch2/catch.hpp>
 #include <numeric>
@@ -60,7 +61,7 @@ void check_march(const March<D>& m) {
     for (std::size_t s = 0; s < m.hulls.size(); ++s) {
         const Hull<D>& hull = m.hulls[s];
         CheckOptions options;
-        options.betti = true;
+        options.betti_cells = practical_betti_cells;
         const HullReport report = check_hull<D>(columns_of(hull), options);
         for (const Finding& finding : report.findings) {
             FAIL_CHECK(finding.text);

@@ -7,6 +7,7 @@
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/initial.h"
 #include "slabhull/slab/slab.h"
+#include "slabhull/topology/homology.h"
 #include "swept_grid.h"
 
 #include <catch2/catch.hpp>
@@ -64,7 +65,7 @@ Hull<D> stitched(const SlabParts<D>& parts, const SideOptions& side) {
 template<int D>
 void check_sound(const Hull<D>& hull, const std::vector<std::size_t>& betti) {
     CheckOptions options;
-    options.betti = true;
+    options.betti_cells = practical_betti_cells;
     const HullReport report = check_hull<D>(columns_of(hull), options);
     for (const Finding& finding : report.findings) {
         FAIL_CHECK(finding.text);

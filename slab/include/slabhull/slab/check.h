@@ -88,7 +88,7 @@ struct Finding {
 };
 
 struct CheckOptions {
-    bool betti = false;             ///< compute the Betti numbers, too
+    std::size_t betti_cells = 0;    ///< compute the Betti numbers, too, of a hull of at most so many cells
     std::size_t most_findings = 20; ///< kept of each kind; all are counted
     /// The user's numbers of vertices and cells; empty: counted from 0.
     std::function<std::int64_t(Index)> vertex_number;

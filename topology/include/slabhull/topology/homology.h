@@ -13,6 +13,9 @@ namespace slabhull {
 template<int D>
 using BettiNumbers = std::array<std::size_t, D + 1>;
 
+/// Up to so many cells the Betti numbers of a hull cost seconds, twice as much as all other checks together.
+inline constexpr std::size_t practical_betti_cells = 10'000'000;
+
 /// Betti numbers over Z/2 of a closed D-manifold (D = 2, 3), exact.
 /// Needs: a soup of simplices that examine_manifold() finds clean (orientation does not matter), and its
 /// adjacency.
