@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/projection.h"
 
+#include "moved_points.h"
 #include "vector_algebra.h"
-
-#include "slabhull/core/error.h"
-#include "slabhull/core/parallel.h"
-
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace slabhull {
 
 namespace {
 
 using namespace detail;
-
-constexpr std::size_t chunk_size = 4096;
 
 template<int D>
 class Sphere final : public ProjectionSurface<D> {
@@ -197,31 +190,6 @@ private:
     Point<D> normal_;
 };
 
-/// Projects a chunk and returns the sum and the maximum of the distances as a report.
-template<int D>
-ProjectionReport project_chunk(const ProjectionSurface<D>& surface, const AffineMap<D>& placement,
-                               const AffineMap<D>& inverse, std::span<Point<D>> x, std::size_t first,
-                               std::span<double> moved) {
-    ProjectionReport report;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const Point<D> image = placement(surface.closest(inverse(x[i])));
-        if (!all_finite(image)) {
-            const auto number = static_cast<std::int64_t>(first + i);
-            throw GeometryError{
-                fmt::format("point {} at {} cannot be put on its projection surface", number, to_text(x[i])),
-                {{"vertex", number, {}}}};
-        }
-        const double distance = norm(minus(image, x[i]));
-        x[i] = image;
-        report.largest = std::max(report.largest, distance);
-        report.mean += distance;
-        if (!moved.empty()) {
-            moved[i] = distance;
-        }
-    }
-    return report;
-}
-
 } // namespace
 
 template<int D>
@@ -247,20 +215,11 @@ template<int D>
 ProjectionReport project(const ProjectionSurface<D>& surface, const AffineMap<D>& placement,
                          std::span<Point<D>> x, std::span<double> moved) {
     const AffineMap<D> inverse = inverse_of_similarity<D>(placement);
-    std::vector<ProjectionReport> parts((x.size() + chunk_size - 1) / chunk_size);
-    parallel_for(x.size(), chunk_size, [&](std::size_t begin, std::size_t end) {
-        const auto distances = moved.empty() ? moved : moved.subspan(begin, end - begin);
-        parts[begin / chunk_size] =
-            project_chunk<D>(surface, placement, inverse, x.subspan(begin, end - begin), begin, distances);
+    return move_points<D>(x, moved, [&](const Point<D>& point, std::size_t number) {
+        const Point<D> image = placement(surface.closest(inverse(point)));
+        require_on_surface(image, point, number);
+        return image;
     });
-    ProjectionReport report;
-    for (const ProjectionReport& part : parts) {
-        report.largest = std::max(report.largest, part.largest);
-        report.mean += part.mean;
-    }
-    report.count = x.size();
-    report.mean /= static_cast<double>(std::max<std::size_t>(1, x.size()));
-    return report;
 }
 
 template ProjectionSurfacePointer<2> sphere_surface<2>(const Point<2>&, double);

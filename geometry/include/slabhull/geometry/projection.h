@@ -20,6 +20,10 @@ public:
     /// The point of the surface closest to x, to rounding. Where several are equally close, always the same
     /// one.
     virtual Point<D> closest(const Point<D>& x) const = 0;
+
+    /// How far off the surface may be by the way it was given, as a length: the tolerance of a CAD file, the
+    /// rounding of a file in single precision. 0: none beyond the rounding of doubles.
+    virtual double tolerance() const { return 0; }
 };
 
 template<int D>
@@ -60,6 +64,29 @@ template<int D>
 ProjectionReport project(const ProjectionSurface<D>& surface, const AffineMap<D>& placement,
                          std::span<Point<D>> x, std::span<double> moved = {});
 
+/// A surface as it lies when `placement`, a similarity, has been applied to it.
+template<int D>
+struct PlacedSurface {
+    const ProjectionSurface<D>* surface = nullptr;
+    AffineMap<D> placement;
+};
+
+/// Puts points on all of `surfaces` at once: those of a crease on two of them, those of a corner on three.
+/// A point near x, not always the nearest: the first steps are towards the nearest point that the tangent
+/// planes have in common, later ones make up for their curvature. Surfaces may meet at any angle, down to
+/// touching without crossing; then the place is as uncertain as their meeting is. How near is near enough is
+/// the caller's to judge by `moved`. With one surface the same as project().
+/// Needs: at least one surface; `extent`, the size of the mesh, which says what counts as rounding; `moved`
+/// empty or as long as `x`. Afterwards each point is within 1e-13 extent of each surface, or within the sum
+/// of their tolerances where these are larger. Throws GeometryError when a placement is no similarity, or
+/// names a point near which the surfaces do not meet. Cost: some 5 closest points per point and surface.
+/// The result does not depend on the number of threads.
+/// Source: Newton's method for f_i = 0 with the surfaces' own tangent planes, safeguarded by alternating
+/// projections (von Neumann).
+template<int D>
+ProjectionReport project_onto_all(std::span<const PlacedSurface<D>> surfaces, std::span<Point<D>> x,
+                                  double extent, std::span<double> moved = {});
+
 extern template ProjectionSurfacePointer<2> sphere_surface<2>(const Point<2>&, double);
 extern template ProjectionSurfacePointer<3> sphere_surface<3>(const Point<3>&, double);
 extern template ProjectionSurfacePointer<2> ellipsoid_surface<2>(const Point<2>&, const Point<2>&);
@@ -70,5 +97,9 @@ extern template ProjectionReport project<2>(const ProjectionSurface<2>&, const A
                                             std::span<Point<2>>, std::span<double>);
 extern template ProjectionReport project<3>(const ProjectionSurface<3>&, const AffineMap<3>&,
                                             std::span<Point<3>>, std::span<double>);
+extern template ProjectionReport project_onto_all<2>(std::span<const PlacedSurface<2>>, std::span<Point<2>>,
+                                                     double, std::span<double>);
+extern template ProjectionReport project_onto_all<3>(std::span<const PlacedSurface<3>>, std::span<Point<3>>,
+                                                     double, std::span<double>);
 
 } // namespace slabhull
