@@ -20,7 +20,7 @@ double count_cells(const Case& the_case) {
     IdCounter ids;
     StageClock clock;
     const auto initial = initial_cap<D>(the_case, ids, {}, clock);
-    const auto settings = settings_of<D>(the_case, initial.patches);
+    const auto settings = settings_of<D>(the_case, boundary_of(initial));
     const auto sweep = sweep_boundary<D>(initial, settings.motions, 0, {0, 1}, settings.trajectory);
     const auto terminating = mesh_cap<D>(sweep.at(1), settings.cap);
     const std::size_t layers = the_case.level_times(0).size() - 1;

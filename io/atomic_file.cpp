@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <regex>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -30,6 +32,16 @@ std::filesystem::path temporary_beside(const std::filesystem::path& target) {
     auto name = target.filename();
     name += fmt::format(".{}-{}.part", ::getpid(), count++);
     return target.parent_path() / name;
+}
+
+/// A new name outlives a power cut only when its folder is on disk. Some file systems cannot sync folders,
+/// which is no fault of the file.
+void sync_folder(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor >= 0) {
+        ::fsync(descriptor);
+        ::close(descriptor);
+    }
 }
 
 } // namespace
@@ -57,6 +69,9 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(const void* bytes, std::size_t size) {
+    if (checksum_) {
+        checksum_->add(bytes, size);
+    }
     const auto* next = static_cast<const char*>(bytes);
     while (size > 0) {
         const ssize_t written = ::write(descriptor_, next, size);
@@ -84,10 +99,24 @@ void AtomicFile::commit() {
         fail("cannot be put in place");
     }
     temporary_.clear();
+    sync_folder(target_.parent_path());
 }
 
 void AtomicFile::fail(const char* doing) const {
     throw OutputError(fmt::format("{}: {}: {}", path_.string(), doing, std::strerror(errno)));
+}
+
+void remove_stale_parts(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator{folder, ignored}) {
+        const std::string name = entry.path().filename().string();
+        std::smatch parts;
+        static const std::regex temporary{R"(.*\.(\d{1,9})-\d+\.part)"};
+        if (std::regex_match(name, parts, temporary) && ::kill(std::stoi(parts[1]), 0) != 0 &&
+            errno == ESRCH) {
+            std::filesystem::remove(entry.path(), ignored);
+        }
+    }
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {

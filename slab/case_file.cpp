@@ -2,6 +2,7 @@
 #include "slabhull/slab/case.h"
 
 #include "slabhull/core/error.h"
+#include "slabhull/io/checksum.h"
 
 #include "key_table.h"
 #include "motion_keys.h"
@@ -136,7 +137,20 @@ private:
                           fmt::format("a spacing that makes at most {} layers in a slab", most_layers));
             }
         }
+        read_adapt(time);
         time.require_all_known();
+    }
+
+    void read_adapt(KeyTable& time) {
+        if (time.has("adapt")) {
+            case_.adapt = time.boolean("adapt");
+        }
+        if (time.has("adapt_floor")) {
+            case_.adapt_floor = time.positive("adapt_floor");
+            if (case_.adapt_floor > 1) {
+                time.fail("adapt_floor", "a part of a slab's duration, at most 1");
+            }
+        }
     }
 
     void read_patches() {
@@ -231,23 +245,33 @@ private:
 } // namespace
 
 Case read_case(const std::filesystem::path& path) {
-    return CaseReader{KeyTable::parse_file(path), path.parent_path()}.run();
+    Case the_case = CaseReader{KeyTable::parse_file(path), path.parent_path()}.run();
+    the_case.checksum = io::checksum_of(path);
+    return the_case;
 }
 
 double Case::slab_begin(int slab) const {
     return slab == slabs ? end : start + (end - start) * slab / static_cast<double>(slabs);
 }
 
-std::vector<double> Case::level_times(int slab) const {
-    const double begin = slab_begin(slab);
-    const double duration = slab_begin(slab + 1) - begin;
+double Case::slab_end(double time) const {
+    const double passed = std::floor((time - start) / (end - start) * slabs);
+    int slab = std::max(0, static_cast<int>(std::min(passed, slabs - 1.0)) - 1);
+    while (slab + 1 < slabs && !(slab_begin(slab + 1) > time)) {
+        ++slab; // rounding may have put us a slab off
+    }
+    return slab_begin(slab + 1);
+}
+
+std::vector<double> Case::level_times(double begin, double end_of_slab) const {
+    const double duration = end_of_slab - begin;
     // A spacing that divides the duration up to rounding does so exactly.
     const double wanted = spacing ? std::max(1.0, std::ceil(duration / *spacing - 1e-9)) : layers.value_or(1);
     std::vector<double> times;
     for (double layer = 0; layer < wanted; ++layer) {
         times.push_back(begin + duration * layer / wanted);
     }
-    times.push_back(slab_begin(slab + 1));
+    times.push_back(end_of_slab);
     return times;
 }
 

@@ -3,6 +3,7 @@
 
 #include "slabhull/core/error.h"
 #include "slabhull/io/files.h"
+#include "slabhull/topology/adjacency.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -308,6 +309,25 @@ void write_cap(io::AtomicFile& file, const SpatialMesh<D>& cap, double time) {
     io::write_vtu(file, mesh);
 }
 
+template<int D>
+SpatialMesh<D> read_cap(const std::filesystem::path& path) {
+    const io::Soup soup = io::read_vtu(path);
+    MeshArrays<D> mesh = mesh_of_soup<D>(soup);
+    const auto ids = [&](const char* name) {
+        return optional_numbers(soup, soup.find_point_data(name), mesh.points.size(), 1);
+    };
+    SpatialMesh<D> cap;
+    cap.vertex_ids = ids("vertex_id");
+    cap.track_ids = ids("track_id");
+    if (cap.vertex_ids.empty() || cap.track_ids.empty()) {
+        throw InputError(fmt::format("{}: has no vertex_id and track_id of a cap", path.string()));
+    }
+    cap.neighbors = build_adjacency<D>(mesh.cells, mesh.points.size()).neighbors;
+    cap.points = std::move(mesh.points);
+    cap.cells = std::move(mesh.cells);
+    return cap;
+}
+
 MeshKind kind_of(const io::Soup& soup) {
     const int dimension = soup.top_dimension();
     if (dimension < 2) {
@@ -376,6 +396,8 @@ template void write_hull<2>(io::AtomicFile&, const Hull<2>&, const std::string&)
 template void write_hull<3>(io::AtomicFile&, const Hull<3>&, const std::string&);
 template void write_cap<2>(io::AtomicFile&, const SpatialMesh<2>&, double);
 template void write_cap<3>(io::AtomicFile&, const SpatialMesh<3>&, double);
+template SpatialMesh<2> read_cap<2>(const std::filesystem::path&);
+template SpatialMesh<3> read_cap<3>(const std::filesystem::path&);
 template struct HullArrays<2>;
 template struct HullArrays<3>;
 template HullArrays<2> hull_of_soup<2>(const io::Soup&);

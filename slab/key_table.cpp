@@ -119,6 +119,14 @@ std::optional<std::string> KeyTable::optional_text(const std::string& key) {
     return has(key) ? std::optional{text(key)} : std::nullopt;
 }
 
+bool KeyTable::boolean(const std::string& key) {
+    const toml::node* node = node_->find(key);
+    if (node == nullptr || !node->is_boolean()) {
+        fail(key, "true or false");
+    }
+    return node->as_boolean()->get();
+}
+
 int KeyTable::integer(const std::string& key, int smallest, int largest) {
     const toml::node* node = node_->find(key);
     const std::string expected = smallest == largest

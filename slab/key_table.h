@@ -22,6 +22,7 @@ public:
 
     std::string text(const std::string& key);
     std::optional<std::string> optional_text(const std::string& key);
+    bool boolean(const std::string& key);
     int integer(const std::string& key, int smallest, int largest);
     double number(const std::string& key);
     double number_or(const std::string& key, double otherwise);

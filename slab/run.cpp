@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/run.h"
 
+#include "journal.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/io/files.h"
 #include "slabhull/slab/check.h"
+#include "slabhull/slab/checkpoint.h"
 #include "slabhull/slab/hull_files.h"
 #include "slabhull/slab/initial.h"
+#include "slabhull/slab/march.h"
 #include "slabhull/slab/report.h"
-#include "slabhull/slab/slab.h"
+#include "slabhull/slab/tangling.h"
 
 #include <fmt/format.h>
 #include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace slabhull {
 
@@ -68,60 +72,154 @@ struct SlabFiles {
     }
 };
 
+/// Names of the files beside the slabs.
+constexpr const char* checkpoint_name = "march.state";
+constexpr const char* journal_name = "slabs.jsonl";
+
+std::string slab_name(int slab, const std::string& format) {
+    return fmt::format("slab_{:04}.{}", slab, format);
+}
+
+std::string cap_name(int cap) {
+    return fmt::format("cap_{:04}.vtu", cap);
+}
+
 template<int D>
 class Runner {
 public:
-    Runner(const Case& the_case, const Listener& listener) : case_{the_case}, listener_{listener} {}
+    Runner(const Case& the_case, const RunOptions& options, const Listener& listener)
+        : case_{the_case}, listener_{listener} {
+        make_directory(case_.directory);
+        io::remove_stale_parts(case_.directory);
+        if (!options.resume || !resume()) {
+            begin();
+        }
+    }
 
     RunResult run() {
-        listener_.progress("initial cap", 0);
-        StageClock clock;
-        SpatialMesh<D> cap = initial_cap<D>(case_, ids_, listener_, clock);
-        settings_ = settings_of<D>(case_, cap.patches);
-        report_initial(cap, clock);
+        const std::size_t before = result_.files.size();
         try {
-            for (int slab = 0; slab < case_.slabs; ++slab) {
-                cap = run_slab(cap, slab);
+            while (march_->state().time < case_.end) {
+                run_slab();
             }
         } catch (const Error&) {
-            if (!result_.files.empty()) {
-                write_report();
+            if (result_.files.size() > before) {
+                write_overview();
             }
             throw;
         }
-        write_report();
+        write_overview();
         listener_.progress("done", 1);
         return std::move(result_);
     }
 
 private:
-    SpatialMesh<D> run_slab(const SpatialMesh<D>& initial, int number) {
-        listener_.progress(fmt::format("slab {} of {}", number + 1, case_.slabs),
-                           static_cast<double>(number) / case_.slabs);
+    std::filesystem::path path_of(const std::string& name) const { return case_.directory / name; }
+
+    void begin() {
+        listener_.progress("initial cap", 0);
         StageClock clock;
-        Slab<D> slab = build_slab<D>(initial, number, case_.level_times(number), settings_, ids_, clock);
+        IdCounter ids;
+        SpatialMesh<D> cap = initial_cap<D>(case_, ids, listener_, clock);
+        initial_ = report_of_initial(cap, clock);
+        start(march_from<D>(std::move(cap), case_.start, ids));
+    }
+
+    /// False when there is nothing to go on from.
+    bool resume() {
+        const auto path = path_of(checkpoint_name);
+        if (!std::filesystem::exists(path)) {
+            listener_.warning(
+                fmt::format("{}: no such checkpoint, the run starts from the beginning", path.string()));
+            return false;
+        }
+        Checkpoint<D> checkpoint = read_checkpoint<D>(path);
+        if (checkpoint.files.case_checksum != case_.checksum) {
+            listener_.warning(
+                fmt::format("the case file is not what it was when {} was written", path.string()));
+        }
+        listener_.progress(fmt::format("going on from t = {}", checkpoint.state.time), 0);
+        start(std::move(checkpoint.state));
+        journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
+        return true;
+    }
+
+    void start(MarchState<D>&& state) {
+        SlabSettings<D> settings = settings_of<D>(case_, state.start_boundary());
+        patches_ = state.cap.patches;
+        march_.emplace(std::move(state), std::move(settings));
+    }
+
+    void run_slab() {
+        const double time = march_->state().time;
+        const int number = march_->state().slab;
+        listener_.progress(fmt::format("slab {} from t = {:.6g}", number, time),
+                           (time - case_.start) / (case_.end - case_.start));
+        StageClock clock;
+        Slab<D> slab = propose(clock);
         SlabFiles files;
-        begin_writing(slab, number, files); // the disk is slow: it works while the hull is checked
+        begin_writing(slab, files); // the disk is slow: it works while the hull is checked
         const HullReport checked = check_hull<D>(columns_of(slab.hull));
         clock.book("checking");
         if (!checked.clean()) {
             throw GeometryError(fmt::format("the hull of slab {} has {} defects and was not written:\n{}",
                                             number, checked.total(), findings_as_text(checked)));
         }
-        commit(files);
+        files.written.get();
+        if (!journal_) {
+            replace_earlier_run();
+        }
+        const std::uint32_t cap_checksum = commit(files);
         result_.cells += slab.hull.cells.size();
         result_.points += slab.hull.points.size();
+        ++result_.slabs;
         clock.book("writing");
-        report_slab(slab, checked, clock);
-        return std::move(slab.terminating);
+        const Json report = report_of(slab, checked, clock);
+        march_->accept(std::move(slab));
+        journal_->append(report.dump());
+        write_checkpoint(path_of(checkpoint_name), march_->state(),
+                         {cap_name(march_->state().slab), cap_checksum, journal_->size(), case_.checksum});
     }
 
-    void begin_writing(const Slab<D>& slab, int number, SlabFiles& files) {
-        make_directory(case_.directory);
-        for (const std::string& format : case_.formats) {
-            files.add(case_.directory / fmt::format("slab_{:04}.{}", number, format));
+    /// The first slab is complete and takes the place of one that an earlier run may have left. That run's
+    /// checkpoint goes before its slabs do: nobody shall go on from it.
+    void replace_earlier_run() {
+        std::filesystem::remove(path_of(checkpoint_name));
+        journal_.emplace(path_of(journal_name), 0);
+        journal_->append(initial_.dump());
+    }
+
+    /// The slab as planned or, if the case wants it, as much of it as is not tangled.
+    Slab<D> propose(StageClock& clock) {
+        const double begin = march_->state().time;
+        const double floor = case_.adapt_floor * (case_.end - case_.start) / case_.slabs;
+        for (double end = case_.slab_end(begin);;) {
+            try {
+                return march_->propose(case_.level_times(begin, end), clock);
+            } catch (const TangledBoundary& tangled) {
+                if (!case_.adapt) {
+                    throw;
+                }
+                if (tangled.good_until - begin < floor) {
+                    throw GeometryError(
+                        fmt::format("slab {} would have to be shorter than {:.3g}, the least that "
+                                    "[time] adapt_floor allows:\n{}",
+                                    march_->state().slab, floor, tangled.what()),
+                        tangled.entities);
+                }
+                end = tangled.good_until;
+                listener_.warning(fmt::format("slab {} ends at t = {:.9g}, before its boundary tangles",
+                                              march_->state().slab, end));
+            }
         }
-        files.add(case_.directory / fmt::format("cap_{:04}.vtu", number + 1));
+    }
+
+    void begin_writing(const Slab<D>& slab, SlabFiles& files) {
+        for (const std::string& format : case_.formats) {
+            files.add(path_of(slab_name(slab.hull.slab, format)));
+        }
+        files.add(path_of(cap_name(slab.hull.slab + 1)));
+        files.open.back()->keep_checksum();
         files.written = std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred,
                                    [this, &slab, &files] { write(slab, files); });
     }
@@ -135,30 +233,23 @@ private:
         files.open.back()->finish();
     }
 
-    void commit(SlabFiles& files) {
-        files.written.get();
+    /// Returns the checksum of the cap's file.
+    std::uint32_t commit(SlabFiles& files) {
         for (std::size_t i = 0; i < files.open.size(); ++i) {
             files.open[i]->commit();
             result_.files.push_back(files.paths[i]);
         }
+        return files.open.back()->checksum();
     }
 
-    void report_initial(const SpatialMesh<D>& cap, const StageClock& clock) {
-        report_["slabhull"] = version();
-        report_["settings"] = settings_as_json(case_);
-        report_["threads"] = thread_count();
-        report_["patches"] = Json::object();
-        for (const Patch& patch : cap.patches) {
-            report_["patches"][std::to_string(patch.number)] = patch.name;
-        }
-        report_["initial_cap"] = {{"points", cap.points.size()},
-                                  {"cells", cap.cells.size()},
-                                  {"boundary_facets", cap.boundary_facets.size()},
-                                  {"seconds", seconds_as_json(clock)}};
-        report_["slabs"] = Json::array();
+    static Json report_of_initial(const SpatialMesh<D>& cap, const StageClock& clock) {
+        return {{"points", cap.points.size()},
+                {"cells", cap.cells.size()},
+                {"boundary_facets", cap.boundary_facets.size()},
+                {"seconds", seconds_as_json(clock)}};
     }
 
-    void report_slab(const Slab<D>& slab, const HullReport& checked, const StageClock& clock) {
+    static Json report_of(const Slab<D>& slab, const HullReport& checked, const StageClock& clock) {
         Json json = as_json(checked);
         json["slab"] = slab.hull.slab;
         json["projection"] = Json::object();
@@ -167,29 +258,55 @@ private:
                                                                         {"mean", moved.mean}};
         }
         json["seconds"] = seconds_as_json(clock);
-        report_["slabs"].push_back(std::move(json));
+        json["peak_memory"] = {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};
+        return json;
     }
 
-    void write_report() {
-        report_["peak_memory"] = {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};
-        const auto path = case_.directory / "report.json";
-        io::write_text(path, report_.dump(2) + "\n");
-        result_.files.push_back(path);
+    /// report.json and the series for ParaView, of all slabs there are.
+    void write_overview() {
+        Json head;
+        head["slabhull"] = version();
+        head["settings"] = settings_as_json(case_);
+        head["threads"] = thread_count();
+        head["patches"] = Json::object();
+        for (const Patch& patch : patches_) {
+            head["patches"][std::to_string(patch.number)] = patch.name;
+        }
+        head["peak_memory"] = {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};
+        io::AtomicFile file{path_of("report.json")};
+        write_report(head, file);
+        file.commit();
+        result_.files.push_back(path_of("report.json"));
+    }
+
+    void write_report(const Json& head, io::AtomicFile& file) const {
+        const std::string text = head.dump(2);
+        file.write(std::string_view{text}.substr(0, text.size() - 2)); // without the closing brace
+        bool initial = true;
+        const char* before = "";
+        journal_->each_line([&](const std::string& line) {
+            file.write(initial ? ",\n  \"initial_cap\": " + line + ",\n  \"slabs\": ["
+                               : before + ("\n    " + line));
+            before = initial ? "" : ",";
+            initial = false;
+        });
+        file.write("\n  ]\n}\n");
     }
 
     const Case& case_;
     const Listener& listener_;
-    IdCounter ids_;
-    SlabSettings<D> settings_;
+    std::optional<March<D>> march_;
+    std::optional<Journal> journal_; ///< there from the first slab on
+    Json initial_;
+    PatchList patches_;
     RunResult result_;
-    Json report_;
 };
 
 } // namespace
 
-RunResult run_case(const Case& the_case, const Listener& listener) {
-    return the_case.dimension == 2 ? Runner<2>{the_case, listener}.run()
-                                   : Runner<3>{the_case, listener}.run();
+RunResult run_case(const Case& the_case, const Listener& listener, const RunOptions& options) {
+    return the_case.dimension == 2 ? Runner<2>{the_case, options, listener}.run()
+                                   : Runner<3>{the_case, options, listener}.run();
 }
 
 const char* version() {

@@ -2,7 +2,7 @@
 #include "slabhull/slab/slab.h"
 
 #include "slabhull/core/error.h"
-#include "slabhull/geometry/embedding.h"
+#include "slabhull/slab/tangling.h"
 
 #include "patch_motions.h"
 
@@ -25,15 +25,6 @@ PatchNumber number_of(const PatchList& patches, const std::string& name, const c
     return number;
 }
 
-/// Checks the boundary on every level after the first, which is the initial cap's own.
-template<int D>
-void require_embedded_levels(const Sweep<D>& sweep) {
-    for (std::size_t level = 1; level < sweep.times.size(); ++level) {
-        require_domain_boundary(sweep.at(level),
-                                {fmt::format("moved boundary at t = {:.9g}", sweep.times[level]), {}}, false);
-    }
-}
-
 } // namespace
 
 CapOptions cap_options(const Case& the_case) {
@@ -45,17 +36,17 @@ CapOptions cap_options(const Case& the_case) {
 }
 
 template<int D>
-SlabSettings<D> settings_of(const Case& the_case, const PatchList& patches) {
+SlabSettings<D> settings_of(const Case& the_case, const Surface<D>& start) {
     SlabSettings<D> settings;
     settings.motion_start = the_case.start;
     settings.trajectory = the_case.trajectory;
     settings.side = {the_case.split, the_case.diagonals};
     settings.cap = cap_options(the_case);
     for (const auto& [patch, spec] : the_case.motions) {
-        settings.motions[number_of(patches, patch, "motion")].motion = motion_of<D>(spec, the_case);
+        settings.motions[number_of(start.patches, patch, "motion")].motion = motion_of<D>(spec, the_case);
     }
     for (const auto& [patch, spec] : the_case.projections) {
-        MovingPatch<D>& moving = settings.motions[number_of(patches, patch, "project")];
+        MovingPatch<D>& moving = settings.motions[number_of(start.patches, patch, "project")];
         if (moving.motion == nullptr) {
             moving.motion = standing<D>();
         }
@@ -72,28 +63,30 @@ SlabSettings<D> settings_of(const Case& the_case, const PatchList& patches) {
 
 template<int D>
 Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double> times,
-                   const SlabSettings<D>& settings, IdCounter& ids, StageClock& clock) {
+                   const SlabSettings<D>& settings, IdCounter ids, StageClock& clock) {
     Slab<D> slab;
     Sweep<D> sweep = sweep_boundary<D>(initial, settings.motions, settings.motion_start, std::move(times),
                                        settings.trajectory);
     clock.book("trajectories");
-    require_embedded_levels(sweep);
+    require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
     clock.book("boundary check");
     CapMesh<D> mesh = mesh_cap<D>(sweep.at(sweep.layers()), settings.cap);
     clock.book("cap meshing");
+    IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
     slab.terminating = terminating_cap<D>(initial, sweep, std::move(mesh), ids);
-    slab.hull = stitch<D>(initial, sweep, slab.terminating, settings.side, ids);
+    slab.hull = stitch<D>(initial, sweep, slab.terminating, settings.side, side_ids);
     slab.hull.slab = number;
     slab.projected = std::move(sweep.projected);
+    slab.next_ids = ids;
     clock.book("stitching");
     return slab;
 }
 
-template SlabSettings<2> settings_of<2>(const Case&, const PatchList&);
-template SlabSettings<3> settings_of<3>(const Case&, const PatchList&);
+template SlabSettings<2> settings_of<2>(const Case&, const Surface<2>&);
+template SlabSettings<3> settings_of<3>(const Case&, const Surface<3>&);
 template Slab<2> build_slab<2>(const SpatialMesh<2>&, int, std::vector<double>, const SlabSettings<2>&,
-                               IdCounter&, StageClock&);
+                               IdCounter, StageClock&);
 template Slab<3> build_slab<3>(const SpatialMesh<3>&, int, std::vector<double>, const SlabSettings<3>&,
-                               IdCounter&, StageClock&);
+                               IdCounter, StageClock&);
 
 } // namespace slabhull

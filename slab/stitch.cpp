@@ -111,7 +111,7 @@ private:
         for_each_index(sweep_.cap_vertex.size(), items_per_piece, [&](std::size_t v) {
             const std::size_t vertex = vertices_.on_level(level, static_cast<Index>(v));
             hull_.points[vertex] = at_time<D>(sweep_.positions[level][v], sweep_.times[level]);
-            hull_.track_ids[vertex] = initial_.track_ids[sweep_.cap_vertex[v]];
+            hull_.track_ids[vertex] = sweep_.tracks[v];
         });
     }
 
@@ -172,18 +172,10 @@ private:
     }
 
     void place_side_cells() {
-        const Array<TrackId> track = swept_tracks();
-        choice_ = choose_templates<D>(options_, graph_, {sweep_, track, vertices_, hull_.points});
+        choice_ = choose_templates<D>(options_, graph_, {sweep_, sweep_.tracks, vertices_, hull_.points});
         for_each_index(hull_.layers * graph_.facets(), prisms_per_piece, [this](std::size_t prism) {
             place_prism(prism / graph_.facets(), prism % graph_.facets());
         });
-    }
-
-    Array<TrackId> swept_tracks() const {
-        Array<TrackId> track(sweep_.cap_vertex.size());
-        std::transform(sweep_.cap_vertex.begin(), sweep_.cap_vertex.end(), track.begin(),
-                       [this](Index v) { return initial_.track_ids[v]; });
-        return track;
     }
 
     void place_prism(std::size_t layer, std::size_t facet) {
@@ -304,6 +296,19 @@ SpatialMesh<D> terminating_cap(const SpatialMesh<D>& initial, const Sweep<D>& sw
 }
 
 template<int D>
+std::size_t side_vertex_count(const Sweep<D>& sweep, Split split) {
+    const SplitRecipe& recipe = recipe_of(split);
+    const std::size_t facets = sweep.surface.facets.size();
+    std::size_t centres = recipe.apex == SplitRecipe::Apex::prism_centre ? facets : 0;
+    if constexpr (D ==
+                  3) { // of a prism's three quadrilaterals one is shared with its partner; each is in two
+        centres += recipe.shared == SplitRecipe::Carries::centre ? facets / 2 : 0;
+        centres += recipe.others == SplitRecipe::Carries::centre ? facets : 0;
+    }
+    return sweep.layers() * centres + (sweep.layers() - 1) * sweep.surface.points.size();
+}
+
+template<int D>
 Hull<D> stitch(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SpatialMesh<D>& terminating,
                const SideOptions& options, IdCounter& ids) {
     return Stitcher<D>{initial, sweep, terminating, options, ids}.run();
@@ -311,6 +316,8 @@ Hull<D> stitch(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const Spati
 
 template SpatialMesh<2> terminating_cap<2>(const SpatialMesh<2>&, const Sweep<2>&, CapMesh<2>&&, IdCounter&);
 template SpatialMesh<3> terminating_cap<3>(const SpatialMesh<3>&, const Sweep<3>&, CapMesh<3>&&, IdCounter&);
+template std::size_t side_vertex_count<2>(const Sweep<2>&, Split);
+template std::size_t side_vertex_count<3>(const Sweep<3>&, Split);
 template Hull<2> stitch<2>(const SpatialMesh<2>&, const Sweep<2>&, const SpatialMesh<2>&, const SideOptions&,
                            IdCounter&);
 template Hull<3> stitch<3>(const SpatialMesh<3>&, const Sweep<3>&, const SpatialMesh<3>&, const SideOptions&,

@@ -19,6 +19,7 @@ struct BuildOptions {
     std::string directory;
     int threads = 0;
     bool quiet = false;
+    bool resume = false;
 };
 
 Listener listener_for(const BuildOptions& options) {
@@ -40,11 +41,11 @@ int build(const BuildOptions& options) {
         the_case.directory = options.directory;
     }
     const Stopwatch watch;
-    const RunResult result = run_case(the_case, listener_for(options));
+    const RunResult result = run_case(the_case, listener_for(options), {options.resume});
     if (!options.quiet) {
         fmt::print("{}: {} simplices, {} points, {} slab{}, checked, in {:.1f} s\n",
                    the_case.title.empty() ? options.case_file : the_case.title, result.cells, result.points,
-                   the_case.slabs, the_case.slabs > 1 ? "s" : "", watch.seconds());
+                   result.slabs, result.slabs == 1 ? "" : "s", watch.seconds());
         for (const auto& file : result.files) {
             fmt::print("  {}\n", file.string());
         }
@@ -63,6 +64,9 @@ void add_build(CLI::App& program, int& exit_code) {
         ->add_option("--threads", options->threads,
                      "Threads to use; 0 for all cores. The output does not depend on it")
         ->check(CLI::Range(0, 1024));
+    command->add_flag(
+        "--resume", options->resume,
+        "Go on after the last slab that an interrupted run finished, as if nothing had happened");
     command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
     command->footer("Example: slabhull build examples/ellipsoid.toml --out out/ellipsoid");
     command->callback([options, &exit_code] { exit_code = build(*options); });

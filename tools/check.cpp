@@ -22,7 +22,8 @@ namespace {
 struct CheckCommand {
     std::string file;
     bool json = false;
-    std::optional<bool> betti; ///< empty: as far as it is practical
+    bool betti = false; ///< neither this nor the next: as far as it is practical
+    bool no_betti = false;
     bool embedding = false;
     int threads = 0;
 };
@@ -89,17 +90,17 @@ int tell(const CheckCommand& command, const Report& report,
     return report.clean() ? clean : defects_found;
 }
 
-std::size_t betti_limit(std::optional<bool> wanted) {
-    if (!wanted) {
-        return practical_betti_cells;
+std::size_t betti_limit(const CheckCommand& command) {
+    if (command.no_betti) {
+        return 0;
     }
-    return *wanted ? std::numeric_limits<std::size_t>::max() : 0;
+    return command.betti ? std::numeric_limits<std::size_t>::max() : practical_betti_cells;
 }
 
 template<int D>
 int check_soup(const CheckCommand& command, const io::Soup& soup, bool hull) {
     CheckOptions options;
-    options.betti_cells = betti_limit(command.betti);
+    options.betti_cells = betti_limit(command);
     const io::SimplexBlock& block = soup.simplices[D];
     if (!soup.point_tags.empty()) {
         options.vertex_number = [&soup](Index v) { return soup.point_tag(v); };
@@ -140,10 +141,11 @@ void add_check(CLI::App& program, int& exit_code) {
     CLI::App* app = program.add_subcommand("check", "Validate a mesh or hull, list what is wrong");
     app->add_option("FILE", command->file, "A hull or mesh: VTU or MSH")->required();
     app->add_flag("--json", command->json, "One JSON document on stdout");
-    app->add_flag(
-        "--betti,!--no-betti", command->betti,
-        fmt::format("Betti numbers, the slowest part: compute them, or not; by default up to {} cells",
+    CLI::Option* betti = app->add_flag(
+        "--betti", command->betti,
+        fmt::format("Betti numbers, the slowest part, of any hull; else of those up to {} cells",
                     practical_betti_cells));
+    app->add_flag("--no-betti", command->no_betti, "No Betti numbers")->excludes(betti);
     app->add_flag("--embedding", command->embedding,
                   "For a hull: whether it crosses itself, in space or in time between its levels");
     app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")

@@ -25,7 +25,7 @@ Hull<3> hull_of(double tets) {
     IdCounter ids;
     StageClock clock;
     const SpatialMesh<3> cap = initial_cap<3>(the_case, ids, {}, clock);
-    const auto settings = settings_of<3>(the_case, cap.patches);
+    const auto settings = settings_of<3>(the_case, boundary_of(cap));
     return build_slab<3>(cap, 0, the_case.level_times(0), settings, ids, clock).hull;
 }
 

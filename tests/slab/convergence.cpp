@@ -27,7 +27,7 @@ Row run_level(const std::string& name, int level) {
     IdCounter ids;
     StageClock clock;
     const auto initial = initial_cap<D>(the_case, ids, {}, clock);
-    const auto settings = settings_of<D>(the_case, initial.patches);
+    const auto settings = settings_of<D>(the_case, boundary_of(initial));
     const Slab<D> slab = build_slab<D>(initial, 0, the_case.level_times(0), settings, ids, clock);
     const HullReport report = check_hull<D>(columns_of(slab.hull));
     REQUIRE(report.clean());

@@ -27,11 +27,12 @@ March<D> march(const Case& the_case, const std::vector<double>& slab_times) {
     March<D> result;
     StageClock clock;
     result.caps.push_back(initial_cap<D>(the_case, result.ids, {}, clock));
-    const auto settings = settings_of<D>(the_case, result.caps[0].patches);
+    const auto settings = settings_of<D>(the_case, boundary_of(result.caps[0]));
     for (std::size_t i = 0; i + 1 < slab_times.size(); ++i) {
         const double middle = (slab_times[i] + slab_times[i + 1]) / 2;
         Slab<D> slab = build_slab<D>(result.caps.back(), static_cast<int>(i),
                                      {slab_times[i], middle, slab_times[i + 1]}, settings, result.ids, clock);
+        result.ids = slab.next_ids;
         result.hulls.push_back(std::move(slab.hull));
         result.caps.push_back(std::move(slab.terminating));
     }
@@ -166,13 +167,15 @@ TEST_CASE("a motion that drives the body through the wall is refused with the ti
     the_case.motions["body"] = away;
     the_case.projections.clear();
     CHECK_THROWS_WITH(march<2>(the_case, {0.0, 0.5}),
-                      Catch::Contains("t = 0.25") && Catch::Contains("body") && Catch::Contains("walls"));
+                      Catch::Contains("t = 0.2002") && Catch::Contains("good until t = 0.1997") &&
+                          Catch::Contains("body") && Catch::Contains("walls"));
 }
 
 TEST_CASE("a patch that the domain has not is refused with those that it has", "[slab]") {
     Case the_case = coarse("circle");
     the_case.motions["rotor"] = the_case.motions.empty() ? MotionSpec{} : the_case.motions.begin()->second;
-    CHECK_THROWS_AS(settings_of<2>(the_case, {{1, "body"}, {2, "walls"}}), UsageError);
-    CHECK_THROWS_WITH(settings_of<2>(the_case, {{1, "body"}, {2, "walls"}}),
+    const Surface<2> boundary{{}, {}, {}, {{1, "body"}, {2, "walls"}}};
+    CHECK_THROWS_AS(settings_of<2>(the_case, boundary), UsageError);
+    CHECK_THROWS_WITH(settings_of<2>(the_case, boundary),
                       Catch::Contains("rotor") && Catch::Contains("walls"));
 }

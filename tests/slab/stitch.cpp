@@ -223,8 +223,8 @@ TEST_CASE("each diagonal by shape has the better angles beside it, and the small
     const auto parts =
         slab_over<3>(specimens::full_box<3>(2), {0, 0.25, 0.5}, GENERATE_COPY(shear, MotionPointer<3>{}));
     auto turned = parts; // with tracks in the other order, diagonals by id are the other ones
-    for (TrackId& track : turned.initial.track_ids) {
-        track = track == no_track ? no_track : -track;
+    for (TrackId& track : turned.sweep.tracks) {
+        track = -track;
     }
     for (const Split split : {Split::B, Split::D}) {
         const auto by_shape = quads_of(stitched(parts, {split, Diagonals::shape}));
@@ -303,7 +303,7 @@ TEST_CASE(
         INFO(split_name(side.split));
         the_case.split = side.split;
         the_case.diagonals = side.diagonals;
-        const auto settings = settings_of<3>(the_case, initial.patches);
+        const auto settings = settings_of<3>(the_case, boundary_of(initial));
         const auto slab = build_slab<3>(initial, 0, the_case.level_times(0), settings, ids, clock);
         check_sound(slab.hull, {1, 1, 1, 1});
     }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/io/checksum.h"
+
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,7 +26,11 @@ public:
     void write(std::string_view text) { write(text.data(), text.size()); }
     /// Syncs to disk, for a commit() that then only renames. Nothing may be written after it.
     void finish();
+    /// Gives the file its name, for good: the folder is synced, too.
     void commit();
+    /// Sums up what is written from now on.
+    void keep_checksum() { checksum_.emplace(); }
+    std::uint32_t checksum() const { return checksum_ ? checksum_->value() : 0; }
 
 private:
     [[noreturn]] void fail(const char* doing) const;
@@ -32,6 +39,10 @@ private:
     std::filesystem::path target_;    ///< where it points
     std::filesystem::path temporary_; ///< empty once committed
     int descriptor_ = -1;
+    std::optional<Checksum> checksum_;
 };
+
+/// Removes the temporary files that processes left in a folder which were killed while writing there.
+void remove_stale_parts(const std::filesystem::path& folder);
 
 } // namespace slabhull::io

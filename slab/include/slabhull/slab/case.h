@@ -5,6 +5,7 @@
 #include "slabhull/topology/prism_split.h"
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -75,6 +76,7 @@ struct ProjectionSpec {
 /// other files.
 struct Case {
     std::string title;
+    std::uint32_t checksum = 0; ///< of the file's bytes
     int dimension = 3;
     std::string experiment; ///< empty unless it is one
     int level = 0;
@@ -85,6 +87,8 @@ struct Case {
     int slabs = 1;
     std::optional<int> layers;     ///< of each slab's side ...
     std::optional<double> spacing; ///< ... or the longest duration of a layer
+    bool adapt = false;            ///< a slab ends before its boundary tangles ...
+    double adapt_floor = 0.01;     ///< ... but lasts at least this part of what it should
 
     std::map<std::string, MotionSpec> motions; ///< by patch
     std::map<std::string, ProjectionSpec> projections;
@@ -101,8 +105,13 @@ struct Case {
 
     /// When slab `slab` begins; that of `slabs` is the end.
     double slab_begin(int slab) const;
+    /// Where the slab that begins at `time` ends, when nothing cuts it short.
+    double slab_end(double time) const;
     /// The times of the levels of a slab, from its beginning to its end.
-    std::vector<double> level_times(int slab) const;
+    std::vector<double> level_times(double begin, double end) const;
+    std::vector<double> level_times(int slab) const {
+        return level_times(slab_begin(slab), slab_begin(slab + 1));
+    }
 };
 
 /// Reads a case file. Paths in it are taken relative to it.

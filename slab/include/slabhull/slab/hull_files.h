@@ -8,6 +8,7 @@
 #include "slabhull/topology/hull.h"
 #include "slabhull/topology/spatial_mesh.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,11 @@ void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& fo
 /// Writes a cap as a spatial mesh with ids and tracks, as VTU.
 template<int D>
 void write_cap(io::AtomicFile& file, const SpatialMesh<D>& cap, double time);
+
+/// Reads a cap that write_cap() wrote: points, cells, ids and tracks bit for bit, adjacency made anew.
+/// Boundary facets and patches are not in the file. Throws InputError.
+template<int D>
+SpatialMesh<D> read_cap(const std::filesystem::path& path);
 
 /// What kind of mesh a file holds.
 struct MeshKind {

@@ -26,22 +26,24 @@ struct Slab {
     Hull<D> hull;
     SpatialMesh<D> terminating;
     std::map<PatchNumber, ProjectionReport> projected;
+    IdCounter next_ids; ///< what the next slab counts from
 };
 
 /// How a case wants its caps meshed.
 CapOptions cap_options(const Case& the_case);
 
-/// The settings that a case gives, for a domain with the given patches.
+/// The settings that a case gives, for a domain with the given boundary when its motion starts.
 /// Throws UsageError for a motion or projection of a patch that there is not.
 template<int D>
-SlabSettings<D> settings_of(const Case& the_case, const PatchList& patches);
+SlabSettings<D> settings_of(const Case& the_case, const Surface<D>& start);
 
 /// Builds slab `number` over the levels `times` on the initial cap: the seven steps of the method. The hull
 /// is not checked as a whole (check_hull() does); the boundary is, on every level, and so is the terminating
-/// cap. Throws GeometryError naming what and where: motions that disagree, a boundary that crosses itself or
-/// leaves its box (facets by number and patch, with the time), a cap that cannot be meshed.
+/// cap. New ids are counted from `ids`: first the side's, then those of the terminating boundary, then those
+/// inside the cap. Throws GeometryError naming what and where: motions that disagree, a cap that cannot be
+/// meshed; TangledBoundary for a boundary that crosses itself or leaves its box.
 template<int D>
 Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double> times,
-                   const SlabSettings<D>& settings, IdCounter& ids, StageClock& clock);
+                   const SlabSettings<D>& settings, IdCounter ids, StageClock& clock);
 
 } // namespace slabhull

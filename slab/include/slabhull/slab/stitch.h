@@ -30,6 +30,10 @@ struct SideOptions {
     Diagonals diagonals = Diagonals::shape;
 };
 
+/// How many vertices of the side are in neither cap: those on inner levels, and the centres of the split.
+template<int D>
+std::size_t side_vertex_count(const Sweep<D>& sweep, Split split);
+
 /// Joins the initial cap, the side made from the sweep and the terminating cap into one closed hull: steps 5
 /// to 7. Vertices: those of the initial cap, then the side's by layer (levels, face centres, prism centres),
 /// then the terminating cap's. Adjacency comes by construction: the caps' own, the split's template, and the

@@ -4,22 +4,26 @@
 #include "slabhull/core/array.h"
 #include "slabhull/core/point.h"
 #include "slabhull/geometry/motion.h"
+#include "slabhull/geometry/nodal_motion.h"
 #include "slabhull/geometry/projection.h"
+#include "slabhull/geometry/stretch.h"
 #include "slabhull/geometry/trajectory.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <map>
-#include <memory>
 #include <vector>
 
 namespace slabhull {
 
-/// What a patch does: its motion, and the surface that its vertices are put back on, which moves along.
+/// What a patch does: it moves as a field in space says, or as is said of each track, or it stretches between
+/// its neighbours; one of the three. Its vertices are then put back on its surface, if it has one.
 template<int D>
 struct MovingPatch {
-    std::shared_ptr<const Motion<D>> motion;
-    /// Null: no projection. Otherwise the motion must have a closed form.
-    std::shared_ptr<const ProjectionSurface<D>> surface;
+    MotionPointer<D> motion;
+    /// Moves with the motion, which must have a closed form; stands still when the patch stretches.
+    ProjectionSurfacePointer<D> surface = nullptr;
+    NodalMotionPointer<D> nodal = nullptr;
+    StretchPointer<D> stretch = nullptr; ///< one for all patches that stretch
 };
 
 /// The moving patches by number; a patch that is not here stands still.
@@ -31,6 +35,7 @@ template<int D>
 struct Sweep {
     Surface<D> surface;                     ///< at the first level; its vertices are the swept ones
     Array<Index> cap_vertex;                ///< vertex of the initial cap that each of them is
+    Array<TrackId> tracks;                  ///< of each of them
     std::vector<double> times;              ///< of the levels, ascending
     std::vector<Array<Point<D>>> positions; ///< by level, then by vertex; the first is surface.points
     std::map<PatchNumber, ProjectionReport>
@@ -45,11 +50,17 @@ struct Sweep {
 /// `cap_vertex` receives the cap's vertex for each.
 template<int D>
 Surface<D> boundary_of(const SpatialMesh<D>& cap, Array<Index>& cap_vertex);
+template<int D>
+Surface<D> boundary_of(const SpatialMesh<D>& cap) {
+    Array<Index> cap_vertex;
+    return boundary_of(cap, cap_vertex);
+}
 
 /// Sweeps the boundary of `cap` through the levels `times`. `motion_start` is the time that projection
 /// surfaces are given at: they are placed by the motion from then to each level. A vertex shared by patches
-/// goes with all their motions, which must agree there. Throws GeometryError naming the patches and the
-/// vertices where motions disagree.
+/// goes with all their motions, which must agree there, and is put on all their surfaces. Throws
+/// GeometryError naming the patches and the vertices where motions disagree, and the vertices that projection
+/// would move by more than half of their shortest edge.
 template<int D>
 Sweep<D> sweep_boundary(const SpatialMesh<D>& cap, const PatchMotions<D>& motions, double motion_start,
                         std::vector<double> times, const TrajectoryOptions& options);

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/error.h"
+#include "slabhull/slab/sweep.h"
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace slabhull {
+
+/// Takes the boundary of a domain from one time to another: step 3 of the method for all patches together.
+/// Field motions are integrated, nodal ones evaluated, stretching patches follow them, and at last vertices
+/// are put back on the surfaces of their patches.
+template<int D>
+class BoundaryMover {
+public:
+    /// `sweep` gives the surface, its tracks and the cap's numbers of its vertices; all must outlive the
+    /// mover.
+    BoundaryMover(const Sweep<D>& sweep, const PatchMotions<D>& motions, double motion_start,
+                  const TrajectoryOptions& options);
+
+    /// The places at time `to` of vertices that are at `from_places` at time `from`. Throws GeometryError
+    /// naming the patches and vertices where motions disagree, the vertices that projection would move by
+    /// more than half of their shortest edge.
+    Array<Point<D>> move(const Array<Point<D>>& from_places, double from, double to);
+
+    /// How far projection moved the vertices of each patch, over all moves.
+    const std::map<PatchNumber, ProjectionReport>& projected() const { return projected_; }
+
+private:
+    /// A set of patches whose vertices follow the same motion: one patch, all those that stand still, or all
+    /// those that stretch.
+    struct MotionGroup {
+        std::vector<PatchNumber> patches;
+        const MovingPatch<D>* moving = nullptr; ///< null: stands still
+        std::vector<Index> vertices{};          ///< ascending
+        std::vector<Point<D>> places{};         ///< of those vertices
+    };
+    /// Vertices that are to be put on the surfaces of the same patches.
+    struct Crease {
+        std::vector<PatchNumber> patches; ///< ascending; more than one where they meet
+        std::vector<Index> vertices;
+    };
+
+    void make_groups();
+    void make_creases();
+    void advance(MotionGroup& group, const Array<Point<D>>& before, double from, double to) const;
+    Array<Point<D>> joined(const Array<Point<D>>& before, double to) const;
+    void project_crease(const Crease& crease, Array<Point<D>>& places, std::span<const double> room,
+                        double to);
+    void require_room(const Crease& crease, std::span<const double> moved, std::span<const double> room,
+                      const Array<Point<D>>& places, double to) const;
+    AffineMap<D> placement(PatchNumber patch, double to) const;
+    [[noreturn]] void refuse(const MotionGroup& a, const MotionGroup& b, double to) const;
+    std::string names(const std::vector<PatchNumber>& patches) const;
+    Entity vertex_entity(Index vertex, const std::vector<PatchNumber>& patches) const;
+
+    const Sweep<D>& sweep_;
+    const PatchMotions<D>& motions_;
+    double motion_start_;
+    const TrajectoryOptions& options_;
+    double extent_;
+    std::vector<MotionGroup> groups_; ///< the stretching one, if any, is the last
+    std::vector<Crease> creases_;
+    std::map<PatchNumber, ProjectionReport> projected_;
+};
+
+} // namespace slabhull

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/slab/march.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace slabhull {
+
+/// What stands beside a march's state: the files that belong to it.
+struct CheckpointFiles {
+    std::string cap;                 ///< name of the cap's file, beside the checkpoint (write_cap())
+    std::uint32_t cap_checksum = 0;  ///< of that file
+    std::uint64_t journal_size = 0;  ///< bytes of the slabs' journal that belong to slabs accepted
+    std::uint32_t case_checksum = 0; ///< of the case file
+};
+
+/// Writes where a march stands, so that it can go on from there: all but what the cap's file holds. A small
+/// file of fixed little-endian fields that ends with its own checksum (docs/formats.md); it replaces the one
+/// before in one step. The cap's file must be on disk. Throws OutputError.
+template<int D>
+void write_checkpoint(const std::filesystem::path& path, const MarchState<D>& state,
+                      const CheckpointFiles& files);
+
+template<int D>
+struct Checkpoint {
+    MarchState<D> state;
+    CheckpointFiles files;
+};
+
+/// Reads a checkpoint and its cap: the very state that was written, bit for bit. Throws InputError naming the
+/// file when one of them is damaged, is missing, or does not belong to the other.
+template<int D>
+Checkpoint<D> read_checkpoint(const std::filesystem::path& path);
+
+extern template void write_checkpoint<2>(const std::filesystem::path&, const MarchState<2>&,
+                                         const CheckpointFiles&);
+extern template void write_checkpoint<3>(const std::filesystem::path&, const MarchState<3>&,
+                                         const CheckpointFiles&);
+extern template Checkpoint<2> read_checkpoint<2>(const std::filesystem::path&);
+extern template Checkpoint<3> read_checkpoint<3>(const std::filesystem::path&);
+
+} // namespace slabhull

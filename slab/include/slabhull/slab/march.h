@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/slab/slab.h"
+
+#include <vector>
+
+namespace slabhull {
+
+/// Where a march stands: all that its next slab depends on, besides the settings.
+template<int D>
+struct MarchState {
+    SpatialMesh<D> cap; ///< the next slab's initial cap
+    double time = 0;    ///< that it is at
+    int slab = 0;       ///< number of the next slab
+    IdCounter ids;
+    /// The boundary's vertices when the motion started, in the order of their tracks, which is that of the
+    /// caps' vertices. Series of displacements and stretching patches refer to it.
+    Array<Point<D>> start_places;
+
+    /// The boundary as it was when the motion started.
+    Surface<D> start_boundary() const;
+};
+
+/// A march that begins: `cap` at time `time`, with tracks from 0 in the order of its boundary's vertices, as
+/// initial_cap() gives it.
+template<int D>
+MarchState<D> march_from(SpatialMesh<D> cap, double time, const IdCounter& ids);
+
+/// Slab after slab on a moving domain. A solver that predicts and corrects proposes slabs as often as it
+/// likes: nothing changes until one is accepted, and each proposal stands on the same initial cap. All
+/// proposals with the same number of layers and the same split give the same ids to the same vertices of cap,
+/// side and terminating boundary, whatever the motion.
+template<int D>
+class March {
+public:
+    March(MarchState<D> state, SlabSettings<D> settings)
+        : state_{std::move(state)}, settings_{std::move(settings)} {}
+
+    const MarchState<D>& state() const { return state_; }
+    /// To be corrected between proposals.
+    SlabSettings<D>& settings() { return settings_; }
+
+    /// The slab from here over the levels `times`, of which the first is the march's time. Its hull is not
+    /// checked as a whole. Throws as build_slab() does; TangledBoundary says how far a slab could go.
+    Slab<D> propose(std::vector<double> times, StageClock& clock) const;
+    Slab<D> propose(std::vector<double> times) const;
+
+    /// Goes on to the slab's end. Throws UsageError for a slab that was not proposed from here.
+    void accept(Slab<D>&& slab);
+
+private:
+    MarchState<D> state_;
+    SlabSettings<D> settings_;
+};
+
+extern template struct MarchState<2>;
+extern template struct MarchState<3>;
+extern template MarchState<2> march_from<2>(SpatialMesh<2>, double, const IdCounter&);
+extern template MarchState<3> march_from<3>(SpatialMesh<3>, double, const IdCounter&);
+extern template class March<2>;
+extern template class March<3>;
+
+} // namespace slabhull

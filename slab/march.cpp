@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/march.h"
+
+#include "slabhull/core/error.h"
+
+#include <fmt/format.h>
+
+namespace slabhull {
+
+template<int D>
+Surface<D> MarchState<D>::start_boundary() const {
+    Surface<D> surface = boundary_of(cap);
+    surface.points = start_places;
+    return surface;
+}
+
+template<int D>
+MarchState<D> march_from(SpatialMesh<D> cap, double time, const IdCounter& ids) {
+    Array<Point<D>> places = boundary_of(cap).points;
+    return {std::move(cap), time, 0, ids, std::move(places)};
+}
+
+template<int D>
+Slab<D> March<D>::propose(std::vector<double> times, StageClock& clock) const {
+    if (times.size() < 2 || times.front() != state_.time || !(times.front() < times.back())) {
+        throw UsageError(
+            fmt::format("a slab must go from the march's time, {}, to a later one", state_.time));
+    }
+    return build_slab<D>(state_.cap, state_.slab, std::move(times), settings_, state_.ids, clock);
+}
+
+template<int D>
+Slab<D> March<D>::propose(std::vector<double> times) const {
+    StageClock clock;
+    return propose(std::move(times), clock);
+}
+
+template<int D>
+void March<D>::accept(Slab<D>&& slab) {
+    if (slab.hull.slab != state_.slab || slab.hull.time[0] != state_.time || slab.hull.vertex_ids.empty() ||
+        slab.hull.vertex_ids[0] != state_.cap.vertex_ids[0]) {
+        throw UsageError(
+            fmt::format("slab {} from t = {} was not proposed by this march, which is at slab {} "
+                        "and t = {}",
+                        slab.hull.slab, slab.hull.time[0], state_.slab, state_.time));
+    }
+    state_.cap = std::move(slab.terminating);
+    state_.time = slab.hull.time[1];
+    state_.ids = slab.next_ids;
+    ++state_.slab;
+}
+
+template struct MarchState<2>;
+template struct MarchState<3>;
+template MarchState<2> march_from<2>(SpatialMesh<2>, double, const IdCounter&);
+template MarchState<3> march_from<3>(SpatialMesh<3>, double, const IdCounter&);
+template class March<2>;
+template class March<3>;
+
+} // namespace slabhull
