@@ -12,7 +12,14 @@ void read_rotation(KeyTable& table, const PatchKeysContext& context, MotionSpec&
         motion.axis = table.direction("axis", 3);
     }
     motion.centre = table.numbers("centre", context.dimension);
-    motion.rate = table.number("rate");
+    if (table.has("table")) {
+        motion.table = context.directory / table.text("table");
+        if (table.has("rate")) {
+            table.fail("table", "one of \"rate\" and \"table\"");
+        }
+    } else {
+        motion.rate = table.number("rate");
+    }
 }
 
 void read_translation(KeyTable& table, const PatchKeysContext& context, MotionSpec& motion) {
@@ -32,6 +39,20 @@ void read_velocity(KeyTable& table, const PatchKeysContext& context, MotionSpec&
     motion.constants = table.optional_constants("constants");
 }
 
+void read_rigid_table(KeyTable& table, const PatchKeysContext& context, MotionSpec& motion) {
+    motion.table = context.directory / table.text("file");
+    motion.centre = table.numbers("centre", context.dimension);
+}
+
+void read_sequence(KeyTable& table, const PatchKeysContext& context, MotionSpec& motion) {
+    for (KeyTable& step : table.optional_tables("steps")) {
+        motion.steps.push_back(read_motion(step, context));
+    }
+    if (motion.steps.empty()) {
+        table.fail("steps", "a list of tables, one for each motion, the inner first");
+    }
+}
+
 /// A kind of motion, and what reads its keys.
 struct MotionKind {
     Kind kind;
@@ -44,6 +65,8 @@ const std::map<std::string, MotionKind>& motion_kinds() {
         {"translation", {Kind::translation, read_translation}},
         {"expansion", {Kind::expansion, read_expansion}},
         {"velocity", {Kind::velocity, read_velocity}},
+        {"rigid-table", {Kind::rigid_table, read_rigid_table}},
+        {"sequence", {Kind::sequence, read_sequence}},
     };
     return kinds;
 }

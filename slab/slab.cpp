@@ -43,7 +43,12 @@ SlabSettings<D> settings_of(const Case& the_case, const Surface<D>& start) {
     settings.side = {the_case.split, the_case.diagonals};
     settings.cap = cap_options(the_case);
     for (const auto& [patch, spec] : the_case.motions) {
-        settings.motions[number_of(start.patches, patch, "motion")].motion = motion_of<D>(spec, the_case);
+        const PatchNumber number = number_of(start.patches, patch, "motion");
+        try {
+            settings.motions[number].motion = motion_of<D>(spec, the_case);
+        } catch (const UsageError& error) {
+            throw UsageError(fmt::format("[motion.{}]: {}", patch, error.what()));
+        }
     }
     for (const auto& [patch, spec] : the_case.projections) {
         MovingPatch<D>& moving = settings.motions[number_of(start.patches, patch, "project")];
