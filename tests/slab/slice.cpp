@@ -129,7 +129,7 @@ void require_manifold(const Section<D>& section) {
     }
 }
 
-constexpr double far = 7.9; ///< just below a power of two, where weights that sum to one often miss it
+constexpr double far = 7.3; ///< a number that weights s and 1 - s often fail to give back
 
 /// Whether a point is on a box from 0 to `far`, to the last bit.
 template<int D>
