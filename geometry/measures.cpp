@@ -201,11 +201,15 @@ private:
 template<int D>
 Point<D + 1> simplex_normal(const std::array<Point<D + 1>, D + 1>& corners) {
     const auto u = minus(corners[1], corners[0]);
-    const auto v = minus(corners[2], corners[0]);
-    if constexpr (D == 2) {
-        return times(1.0 / 2, cross(u, v));
+    if constexpr (D == 1) {
+        return {-u[1], u[0]};
     } else {
-        return times(1.0 / 6, cross(u, v, minus(corners[3], corners[0])));
+        const auto v = minus(corners[2], corners[0]);
+        if constexpr (D == 2) {
+            return times(1.0 / 2, cross(u, v));
+        } else {
+            return times(1.0 / 6, cross(u, v, minus(corners[3], corners[0])));
+        }
     }
 }
 
@@ -265,6 +269,7 @@ SolidMeasures measure_solid(std::span<const Point<D>> points, std::span<const Si
         .value();
 }
 
+template Point<2> simplex_normal<1>(const std::array<Point<2>, 2>&);
 template Point<3> simplex_normal<2>(const std::array<Point<3>, 3>&);
 template Point<4> simplex_normal<3>(const std::array<Point<4>, 4>&);
 template double signed_measure<1>(const std::array<Point<1>, 2>&);

@@ -21,6 +21,11 @@ constexpr int gmsh_simplex_dimension(int type) {
     }
 }
 
+/// Gmsh's element type number of a line, triangle or tetrahedron.
+constexpr int gmsh_simplex_type(int dimension) {
+    return dimension == 1 ? 1 : dimension == 2 ? 2 : 4;
+}
+
 /// What the user calls an element type that we refuse.
 inline std::string gmsh_type_name(int type) {
     switch (type) {

@@ -3,6 +3,7 @@
 #include "slabhull/io/files.h"
 
 #include "column_stream.h"
+#include "gmsh_types.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 
@@ -189,7 +190,8 @@ private:
 
     void write_block(std::size_t entity, const Group& group) {
         const std::size_t corners = static_cast<std::size_t>(mesh_.dimension) + 1;
-        put_block_head(entity, mesh_.dimension == 2 ? 2 : 4, group.end - group.begin); // Gmsh's type numbers
+        const auto type = static_cast<std::size_t>(gmsh_simplex_type(mesh_.dimension));
+        put_block_head(entity, type, group.end - group.begin);
         stream_rows(file_, group.end - group.begin, (corners + 1) * sizeof(std::uint64_t),
                     [&](std::size_t begin, std::size_t end, char* out) {
                         for_each_row(mesh_.cells, group.begin + begin, group.begin + end,

@@ -33,9 +33,9 @@ bool with_vtk_type(std::string_view name, const Use& use) {
                      std::uint64_t{}, std::uint32_t{}, std::uint16_t{}, std::uint8_t{});
 }
 
-/// VTK's number of a triangle or tetrahedron.
+/// VTK's number of a line, triangle or tetrahedron.
 constexpr int vtk_simplex_type(int dimension) {
-    return dimension == 2 ? 5 : 10;
+    return dimension == 1 ? 3 : dimension == 2 ? 5 : 10;
 }
 
 /// What the user calls a cell type that we refuse.
@@ -47,6 +47,8 @@ inline std::string vtk_type_name(int type) {
         return "line";
     case 4:
         return "polyline";
+    case 5:
+        return "triangle";
     case 6:
         return "triangle strip";
     case 7:
@@ -55,6 +57,8 @@ inline std::string vtk_type_name(int type) {
         return "pixel";
     case 9:
         return "quadrilateral";
+    case 10:
+        return "tetrahedron";
     case 11:
         return "voxel";
     case 12:

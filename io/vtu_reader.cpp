@@ -267,15 +267,16 @@ private:
                            : fmt::format("{} cells are claimed, {} types are there", claimed, types.size()));
         }
         cells_ = checked_index(types.size(), "cells");
-        const int dimension = types.front() == vtk_simplex_type(2) ? 2 : 3;
+        int dimension = 3;
+        while (dimension > 1 && types.front() != vtk_simplex_type(dimension)) {
+            --dimension;
+        }
         const auto other = std::find_if(types.begin(), types.end(), [&](std::int64_t type) {
             return type != vtk_simplex_type(dimension);
         });
         if (other != types.end()) {
-            const std::string name =
-                *other == vtk_simplex_type(2) ? "triangle" : vtk_type_name(static_cast<int>(*other & 0xFF));
-            fail(node, fmt::format("cell {} is a {}; only triangles or only tetrahedra are read",
-                                   other - types.begin(), name));
+            fail(node, fmt::format("cell {} is a {}; only lines, only triangles or only tetrahedra are read",
+                                   other - types.begin(), vtk_type_name(static_cast<int>(*other & 0xFF))));
         }
         return static_cast<std::size_t>(dimension);
     }

@@ -3,6 +3,7 @@
 
 #include "column_stream.h"
 #include "vtk_names.h"
+#include "xml_text.h"
 
 #include <algorithm>
 #include <bit>
@@ -87,29 +88,6 @@ AppendedArray appended(const DataArray& data) {
     }
     const auto& reals = std::get<Array<double>>(data.values);
     return appended<double>(data.name, Column<double>::over(std::span<const double>{reals}, data.components));
-}
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += c;
-        }
-    }
-    return result;
 }
 
 /// The arrays by their place in the file, and the XML that tells of them.

@@ -69,6 +69,17 @@ DataArray number_field(std::string name, Array<std::int64_t> values) {
     return {std::move(name), 1, std::move(values)};
 }
 
+void add_patch_fields(MeshColumns& mesh, const PatchList& patches) {
+    Array<std::int64_t> numbers;
+    std::vector<std::string> names;
+    for (const Patch& each : patches) {
+        numbers.push_back(each.number);
+        names.push_back(each.name);
+    }
+    mesh.field_data.push_back(number_field("patch_number", std::move(numbers)));
+    mesh.field_data.push_back({"patch_name", 1, std::move(names)});
+}
+
 template<int D>
 Column<double> times_of(const Hull<D>& hull) {
     return computed<double>(hull.points.size(), [&hull](std::size_t v) { return hull.points[v][D]; });
@@ -100,17 +111,10 @@ void write_hull_vtu(io::AtomicFile& file, const Hull<D>& hull) {
         {"patch", Scalar::int32, computed<std::int64_t>(cells, patch)},
         {"layer", Scalar::int32, computed<std::int64_t>(cells, layer)},
         {"neighbors", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors})}};
-    Array<std::int64_t> numbers;
-    std::vector<std::string> names;
-    for (const Patch& each : hull.patches) {
-        numbers.push_back(each.number);
-        names.push_back(each.name);
-    }
     mesh.field_data = {number_field("slab", {hull.slab}),
                        {"time", 1, Array<double>{hull.time[0], hull.time[1]}},
-                       number_field("dimension", {D}),
-                       number_field("patch_number", std::move(numbers)),
-                       {"patch_name", 1, std::move(names)}};
+                       number_field("dimension", {D})};
+    add_patch_fields(mesh, hull.patches);
     io::write_vtu(file, mesh);
 }
 
@@ -328,6 +332,25 @@ SpatialMesh<D> read_cap(const std::filesystem::path& path) {
     return cap;
 }
 
+template<int D>
+void write_section(io::AtomicFile& file, const Section<D>& section) {
+    const Surface<D>& surface = section.surface;
+    const auto over = [](const auto& values) {
+        return Column<std::int64_t>::over(std::span{values.data(), values.size()});
+    };
+    MeshColumns mesh;
+    mesh.dimension = D - 1;
+    mesh.points = first_three<D>(surface.points);
+    mesh.cells = index_rows(std::span<const Facet<D>>{surface.facets});
+    mesh.point_data = {{"vertex_id", Scalar::int64, ids(section.vertex_ids)},
+                       {"track_id", Scalar::int64, ids(section.track_ids)}};
+    mesh.cell_data = {{"patch", Scalar::int32, over(surface.patch)},
+                      {"hull_cell", Scalar::int64, over(section.hull_cell)}};
+    mesh.field_data = {{"time", 1, Array<double>{section.time}}, number_field("dimension", {D})};
+    add_patch_fields(mesh, surface.patches);
+    io::write_vtu(file, mesh);
+}
+
 MeshKind kind_of(const io::Soup& soup) {
     const int dimension = soup.top_dimension();
     if (dimension < 2) {
@@ -398,6 +421,8 @@ template void write_cap<2>(io::AtomicFile&, const SpatialMesh<2>&, double);
 template void write_cap<3>(io::AtomicFile&, const SpatialMesh<3>&, double);
 template SpatialMesh<2> read_cap<2>(const std::filesystem::path&);
 template SpatialMesh<3> read_cap<3>(const std::filesystem::path&);
+template void write_section<2>(io::AtomicFile&, const Section<2>&);
+template void write_section<3>(io::AtomicFile&, const Section<3>&);
 template struct HullArrays<2>;
 template struct HullArrays<3>;
 template HullArrays<2> hull_of_soup<2>(const io::Soup&);

@@ -99,6 +99,24 @@ nlohmann::ordered_json as_json(const MeshReport& report) {
     return json;
 }
 
+nlohmann::ordered_json as_json(const SectionReport& report, const PatchList& patches) {
+    Json by_patch = Json::array();
+    for (const PatchMeasure& patch : report.patches) {
+        by_patch.push_back({{"number", patch.number},
+                            {"name", patch_name(patches, patch.number)},
+                            {"facets", patch.facets},
+                            {"measure", patch.measure}});
+    }
+    return {{"kind", "section"},
+            {"dimension", report.dimension},
+            {"time", report.time},
+            {"counts",
+             {{"vertices", report.vertices}, {"facets", report.facets}, {"components", report.components}}},
+            {"measure",
+             {{"boundary", report.measure}, {"enclosed", report.enclosed}, {"closure", report.closure}}},
+            {"patches", std::move(by_patch)}};
+}
+
 std::string findings_as_text(const CheckResult& result) {
     std::string text;
     std::array<std::size_t, defect_kinds> shown{};

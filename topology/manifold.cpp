@@ -397,6 +397,7 @@ template ManifoldReport examine_manifold<2>(std::span<const Simplex<2>>, std::si
                                             const ManifoldOptions&);
 template ManifoldReport examine_manifold<3>(std::span<const Simplex<3>>, std::size_t, const Adjacency<3>&,
                                             const ManifoldOptions&);
+template std::size_t count_components<1>(std::span<const Neighbors<1>>);
 template std::size_t count_components<2>(std::span<const Neighbors<2>>);
 template std::size_t count_components<3>(std::span<const Neighbors<3>>);
 

@@ -87,7 +87,7 @@ def by_gmsh(path):
         tags, coordinates, _ = gmsh.model.mesh.getNodes()
         order = np.argsort(tags)
         points = np.asarray(coordinates).reshape(-1, 3)[order]
-        element_tags, corners = gmsh.model.mesh.getElementsByType(2 if dimension == 2 else 4)
+        element_tags, corners = gmsh.model.mesh.getElementsByType({1: 1, 2: 2, 3: 4}[dimension])
         cells = np.asarray(corners, dtype=np.int64).reshape(-1, dimension + 1)[np.argsort(element_tags)] - 1
         for _, number in gmsh.model.getPhysicalGroups(dimension):
             if not gmsh.model.getPhysicalName(dimension, number):

@@ -191,7 +191,8 @@ TEST_CASE("Random damage to an MSH file never does more than refuse it", "[io]")
 TEST_CASE("What is written as MSH comes back bit for bit", "[io]") {
     const scratch::Folder folder;
     for (const specimens::Grid& grid :
-         {specimens::Grid{2, 1}, specimens::Grid{2, 9}, specimens::Grid{3, 1}, specimens::Grid{3, 6}}) {
+         {specimens::Grid{1, 1}, specimens::Grid{1, 9}, specimens::Grid{2, 1}, specimens::Grid{2, 9},
+          specimens::Grid{3, 1}, specimens::Grid{3, 6}}) {
         const io::MeshColumns mesh = grid.columns();
         io::write_msh(folder / "a.msh", mesh);
         const io::Soup soup = io::read_mesh(folder / "a.msh");

@@ -15,8 +15,8 @@ namespace specimens {
 
 using namespace slabhull;
 
-/// A mesh of a unit square (D = 2, on a curved sheet) or cube, n intervals each way, with awkward coordinates
-/// and data of every kind; owns what its columns refer to.
+/// A mesh of a unit interval (D = 1), square (D = 2, on a curved sheet) or cube, n intervals each way, with
+/// awkward coordinates and data of every kind; owns what its columns refer to.
 struct Grid {
     int dimension;
     std::vector<Point<3>> points;
@@ -27,7 +27,7 @@ struct Grid {
 
     Grid(int d, std::int64_t n) : dimension{d} {
         make_points(n);
-        d == 2 ? make_triangles(n) : make_tetrahedra(n);
+        d == 1 ? make_lines(n) : d == 2 ? make_triangles(n) : make_tetrahedra(n);
         make_data();
     }
 
@@ -53,17 +53,23 @@ struct Grid {
 
 private:
     void make_points(std::int64_t n) {
-        const std::int64_t depth = dimension == 2 ? 0 : n;
+        const std::int64_t width = dimension == 1 ? 0 : n;
+        const std::int64_t depth = dimension == 3 ? n : 0;
         for (std::int64_t k = 0; k <= depth; ++k) {
-            for (std::int64_t j = 0; j <= n; ++j) {
+            for (std::int64_t j = 0; j <= width; ++j) {
                 for (std::int64_t i = 0; i <= n; ++i) {
                     const double h = 1.0 / static_cast<double>(n);
                     const double x = static_cast<double>(i) * h;
                     const double y = static_cast<double>(j) * h - 1e-300;
                     points.push_back(
-                        {x, y, dimension == 2 ? std::sin(3 * x) * y : static_cast<double>(k) * h});
+                        {x, y, dimension == 3 ? static_cast<double>(k) * h : std::sin(3 * x) * y});
                 }
             }
+        }
+    }
+    void make_lines(std::int64_t n) {
+        for (std::int64_t i = 0; i < n; ++i) {
+            cells.insert(cells.end(), {i, i + 1});
         }
     }
     void make_triangles(std::int64_t n) {

@@ -78,6 +78,8 @@ TEST_CASE("A VTU file that we do not read is refused by name", "[io]") {
     CHECK_THAT(scratch::refusal(io::read_vtu, fixture("quads.msh")), Contains("no VTU file"));
     CHECK_THAT(text_refusal("UnstructuredGrid\"", "PolyData\""), Contains("PolyData"));
     CHECK_THAT(text_refusal(">10<", ">12<"), Contains("cell 0 is a hexahedron"));
+    CHECK_THAT(text_refusal(">10<", ">3<"), Contains("cell 0 has not 2 vertices"));
+    CHECK_THAT(text_refusal(">10<", ">1<"), Contains("cell 0 is a vertex"));
     CHECK_THAT(text_refusal("</Piece>", "</Piece><Piece/>"), Contains("exactly one Piece"));
     CHECK_THAT(text_refusal("\"Int32\" Name=\"c", "\"Bit\" Name=\"c"), Contains("\"Bit\""));
 }
@@ -143,7 +145,8 @@ TEST_CASE("Random damage to a VTU file never does more than refuse it", "[io]") 
 TEST_CASE("What is written as VTU comes back bit for bit", "[io]") {
     const scratch::Folder folder;
     for (const specimens::Grid& grid :
-         {specimens::Grid{2, 1}, specimens::Grid{2, 9}, specimens::Grid{3, 1}, specimens::Grid{3, 6}}) {
+         {specimens::Grid{1, 1}, specimens::Grid{1, 9}, specimens::Grid{2, 1}, specimens::Grid{2, 9},
+          specimens::Grid{3, 1}, specimens::Grid{3, 6}}) {
         io::write_vtu(folder / "a.vtu", grid.columns());
         const io::Soup soup = io::read_mesh(folder / "a.vtu");
         const auto top = static_cast<std::size_t>(grid.dimension);

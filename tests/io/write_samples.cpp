@@ -11,7 +11,7 @@ int main(int argument_count, char** arguments) {
     }
     const std::filesystem::path folder{arguments[1]};
     std::filesystem::create_directories(folder);
-    for (const int dimension : {2, 3}) {
+    for (const int dimension : {1, 2, 3}) {
         const specimens::Grid grid{dimension, 7};
         slabhull::io::write_vtu(folder / fmt::format("grid{}.vtu", dimension), grid.columns());
         slabhull::io::write_msh(folder / fmt::format("grid{}.msh", dimension), grid.columns());

@@ -10,7 +10,7 @@
 
 namespace slabhull {
 
-/// Normal N of a D-simplex in R^(D+1): det[e_1 .. e_D, N] > 0 and |N| is the simplex's measure (D = 2, 3).
+/// Normal N of a D-simplex in R^(D+1): det[e_1 .. e_D, N] > 0 and |N| is the simplex's measure (D = 1, 2, 3).
 template<int D>
 Point<D + 1> simplex_normal(const std::array<Point<D + 1>, D + 1>& corners);
 
@@ -66,6 +66,7 @@ struct SolidMeasures {
 template<int D>
 SolidMeasures measure_solid(std::span<const Point<D>> points, std::span<const Simplex<D>> cells);
 
+extern template Point<2> simplex_normal<1>(const std::array<Point<2>, 2>&);
 extern template Point<3> simplex_normal<2>(const std::array<Point<3>, 3>&);
 extern template Point<4> simplex_normal<3>(const std::array<Point<4>, 4>&);
 extern template double signed_measure<1>(const std::array<Point<1>, 2>&);

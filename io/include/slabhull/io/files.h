@@ -6,6 +6,8 @@
 #include "slabhull/io/soup.h"
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 namespace slabhull::io {
 
@@ -21,8 +23,8 @@ namespace slabhull::io {
 /// stays repeated. Data: `$NodeData` that give each node a value and `$ElementData` that give one to each
 /// simplex of the top dimension become arrays of doubles; other sections are passed over.
 Soup read_msh(const std::filesystem::path& path);
-/// VTU of triangles only or tetrahedra only, in one piece, little-endian and uncompressed; arrays inline or
-/// appended, ASCII, base64 or raw. Integers become int64, reals double, text arrays strings.
+/// VTU of lines only, triangles only or tetrahedra only, in one piece, little-endian and uncompressed; arrays
+/// inline or appended, ASCII, base64 or raw. Integers become int64, reals double, text arrays strings.
 Soup read_vtu(const std::filesystem::path& path);
 /// MSH or VTU by extension, or else by content.
 Soup read_mesh(const std::filesystem::path& path);
@@ -58,6 +60,17 @@ void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
 /// The same into a file that is the caller's to commit.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh);
 void write_msh(AtomicFile& file, const MeshColumns& mesh);
+
+/// A file of a series, and its time.
+struct SeriesEntry {
+    double time = 0;
+    std::filesystem::path file; ///< taken from the folder of the .pvd where it is relative
+};
+/// A ParaView data file (.pvd): one data set for each entry, in order. Files of several kinds at one time
+/// become parts: entries with the same time are numbered 0, 1 .. in their order. Throws UsageError for a time
+/// that is not finite or a name with control characters, which XML cannot hold.
+void write_pvd(const std::filesystem::path& path, std::span<const SeriesEntry> entries);
+
 /// A small text file, in the same all-or-nothing way.
 void write_text(const std::filesystem::path& path, const std::string& text);
 

@@ -66,7 +66,7 @@ struct DataColumn {
 
 /// Something to be written: columns, so that no second copy of a mesh is made.
 struct MeshColumns {
-    int dimension = 3;          ///< of the simplices: 2 or 3
+    int dimension = 3;          ///< of the simplices: 1, 2 or 3
     Column<double> points;      ///< 3 components
     Column<std::int64_t> cells; ///< dimension + 1 components, from 0
     std::vector<DataColumn> point_data;

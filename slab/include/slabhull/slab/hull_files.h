@@ -5,6 +5,7 @@
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/io/soup.h"
 #include "slabhull/slab/check.h"
+#include "slabhull/slab/slice.h"
 #include "slabhull/topology/hull.h"
 #include "slabhull/topology/spatial_mesh.h"
 
@@ -28,6 +29,10 @@ void write_cap(io::AtomicFile& file, const SpatialMesh<D>& cap, double time);
 /// Boundary facets and patches are not in the file. Throws InputError.
 template<int D>
 SpatialMesh<D> read_cap(const std::filesystem::path& path);
+
+/// Writes a section as VTU: lines (D = 2) or triangles (D = 3) in space, with the arrays of docs/formats.md.
+template<int D>
+void write_section(io::AtomicFile& file, const Section<D>& section);
 
 /// What kind of mesh a file holds.
 struct MeshKind {

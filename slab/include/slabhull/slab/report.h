@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slabhull/slab/check.h"
+#include "slabhull/slab/slice.h"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -12,6 +13,9 @@ namespace slabhull {
 /// Keys are in docs/formats.md.
 nlohmann::ordered_json as_json(const HullReport& report);
 nlohmann::ordered_json as_json(const MeshReport& report);
+
+/// A section as a JSON object: counts, length or area by patch, enclosed measure. `patches` gives the names.
+nlohmann::ordered_json as_json(const SectionReport& report, const PatchList& patches);
 
 /// The findings as lines for a person, kind by kind, with what was left out counted.
 std::string findings_as_text(const CheckResult& result);

@@ -76,6 +76,7 @@ extern template ManifoldReport examine_manifold<2>(std::span<const Simplex<2>>, 
                                                    const Adjacency<2>&, const ManifoldOptions&);
 extern template ManifoldReport examine_manifold<3>(std::span<const Simplex<3>>, std::size_t,
                                                    const Adjacency<3>&, const ManifoldOptions&);
+extern template std::size_t count_components<1>(std::span<const Neighbors<1>>);
 extern template std::size_t count_components<2>(std::span<const Neighbors<2>>);
 extern template std::size_t count_components<3>(std::span<const Neighbors<3>>);
 
