@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -40,6 +41,8 @@ std::vector<Point<D>> shapes() {
                                  {1, 2, 2},
                                  {3, 3, 0.5},
                                  {1, 200, 1},
+                                 {1, 1000, 1},
+                                 {1000, 1, 1000},
                                  {1e-3, 1, 0.3},
                                  {1, 1 + 1e-9, 1 - 1e-9}}) {
         shapes.push_back(first_coordinates<D>(axes));
@@ -68,6 +71,25 @@ std::vector<Point<D>> awkward_points(const Point<D>& axes) {
                     near_axis[(i + 1) % D] = x[(i + 1) % D] * share;
                     points.push_back(near_axis);
                 }
+            }
+        }
+    }
+    return points;
+}
+
+/// Points far away, and at the rim of the medial axis, where two closest points become one.
+template<int D>
+std::vector<Point<D>> far_points_and_rims(const Point<D>& axes) {
+    std::vector<Point<D>> points = random_points<D>(40, 1e7 * *std::max_element(axes.begin(), axes.end()));
+    const double least = *std::min_element(axes.begin(), axes.end());
+    for (std::size_t i = 0; i < D; ++i) {
+        const double rim = (axes[i] - least) * (axes[i] + least) / axes[i];
+        for (const double share : {1.0, 1 - 1e-15, 1 + 1e-15, 1 - 1e-9, 1 + 1e-9, 0.999, 1.001}) {
+            for (const double aside : {0.0, 1e-300, 1e-16, 1e-8}) {
+                Point<D> x{};
+                x[i] = rim * share;
+                x[(i + 1) % D] = least * aside;
+                points.push_back(x);
             }
         }
     }
@@ -122,6 +144,24 @@ double sideways(const Point<D>& a, const Point<D>& b, const Point<D>& direction)
     return distance(rest, Point<D>{});
 }
 
+/// Where a function of an angle is least: the best of many samples, then narrowed down by thirds.
+template<class Function>
+long double least_angle(const Function& f) {
+    constexpr int samples = 2000;
+    constexpr long double spacing = 2 * std::numbers::pi_v<long double> / samples;
+    long double best = 0;
+    for (int i = 1; i < samples; ++i) {
+        best = f(i * spacing) < f(best) ? i * spacing : best;
+    }
+    long double low = best - spacing;
+    long double high = best + spacing;
+    for (int step = 0; step < 100; ++step) {
+        const long double third = (high - low) / 3;
+        f(low + third) < f(high - third) ? high -= third : low += third;
+    }
+    return low;
+}
+
 template<int D>
 std::vector<ProjectionSurfacePointer<D>> surfaces() {
     const Point<D> centre = first_coordinates<D>({0.5, -1, 2});
@@ -152,15 +192,37 @@ TEMPLATE_TEST_CASE_SIG(
         const auto surface = ellipsoid_surface<D>(Point<D>{}, axes);
         const double size = *std::max_element(axes.begin(), axes.end());
         const std::vector<Point<D>> samples = samples_on<D>(axes);
-        for (const Point<D>& x : awkward_points<D>(axes)) {
+        std::vector<Point<D>> points = awkward_points<D>(axes);
+        const std::vector<Point<D>> more = far_points_and_rims<D>(axes);
+        points.insert(points.end(), more.begin(), more.end());
+        for (const Point<D>& x : points) {
             const Point<D> y = surface->closest(x);
+            const double reach = size + distance(x, Point<D>{});
             CAPTURE(axes, x, y);
             REQUIRE(std::abs(residual<D>(y, axes)) < 100 * rounding);
-            REQUIRE(sideways<D>(x, y, unit_normal<D>(y, axes)) < 1e-9 * size);
+            REQUIRE(sideways<D>(x, y, unit_normal<D>(y, axes)) < 1e-9 * reach);
             const double least = std::transform_reduce(
                 samples.begin(), samples.end(), 1e300, [](double a, double b) { return std::min(a, b); },
                 [&](const Point<D>& sample) { return distance(sample, x); });
-            REQUIRE(distance(x, y) <= least + 1e-13 * size);
+            REQUIRE(distance(x, y) <= least + 1e-13 * reach);
+        }
+    }
+}
+
+TEST_CASE("the closest point of an ellipse is that of brute-force minimisation over its angle") {
+    for (const Point<2>& axes : {Point<2>{1, 3}, {1, 1000}, {1000, 1}, {1, 1 + 1e-9}}) {
+        const auto surface = ellipsoid_surface<2>(Point<2>{}, axes);
+        std::vector<Point<2>> points = awkward_points<2>(axes);
+        const std::vector<Point<2>> more = far_points_and_rims<2>(axes);
+        points.insert(points.end(), more.begin(), more.end());
+        for (const Point<2>& x : points) {
+            const auto apart = [&](long double angle) {
+                return std::hypot(axes[0] * std::cos(angle) - x[0], axes[1] * std::sin(angle) - x[1]);
+            };
+            const double least = static_cast<double>(apart(least_angle(apart)));
+            const double reach = std::max(axes[0], axes[1]) + distance(x, Point<2>{});
+            CAPTURE(axes, x);
+            REQUIRE(distance(x, surface->closest(x)) <= least + 4 * rounding * reach);
         }
     }
 }

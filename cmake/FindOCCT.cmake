@@ -1,0 +1,17 @@
+# OpenCASCADE Technology, the part that reads STEP and searches closest points: defines OCCT::OCCT. Its own CMake package
+# wants the visualization libraries, too.
+find_path(OCCT_INCLUDE_DIR STEPControl_Reader.hxx PATH_SUFFIXES opencascade occt)
+set(OCCT_libraries)
+foreach(name IN ITEMS TKSTEP TKSTEPBase TKXSBase TKTopAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
+    find_library(OCCT_${name}_LIBRARY ${name})
+    list(APPEND OCCT_libraries OCCT_${name}_LIBRARY)
+endforeach()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OCCT REQUIRED_VARS OCCT_INCLUDE_DIR ${OCCT_libraries})
+if(OCCT_FOUND AND NOT TARGET OCCT::OCCT)
+    add_library(OCCT::OCCT INTERFACE IMPORTED)
+    target_include_directories(OCCT::OCCT SYSTEM INTERFACE ${OCCT_INCLUDE_DIR})
+    foreach(library IN LISTS OCCT_libraries)
+        target_link_libraries(OCCT::OCCT INTERFACE ${${library}})
+    endforeach()
+endif()
