@@ -13,11 +13,13 @@
 #include "slabhull/slab/report.h"
 #include "slabhull/slab/tangling.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 namespace slabhull {
 
@@ -104,7 +106,10 @@ public:
             }
         } catch (const Error&) {
             if (result_.files.size() > before) {
-                write_overview();
+                try {
+                    write_overview();
+                } catch (const OutputError&) { // what stopped the run says more
+                }
             }
             throw;
         }
@@ -277,6 +282,30 @@ private:
         write_report(head, file);
         file.commit();
         result_.files.push_back(path_of("report.json"));
+        write_series();
+    }
+
+    /// Collections for ParaView: the slabs at the times they begin, the caps at theirs.
+    void write_series() {
+        std::vector<io::SeriesEntry> slabs, caps;
+        bool initial = true;
+        journal_->each_line([&](const std::string& line) {
+            if (!std::exchange(initial, false)) {
+                const Json slab = Json::parse(line);
+                const int number = slab["slab"];
+                slabs.push_back({slab["time"][0], slab_name(number, "vtu")});
+                caps.push_back({slab["time"][1], cap_name(number + 1)});
+            }
+        });
+        if (std::find(case_.formats.begin(), case_.formats.end(), "vtu") != case_.formats.end()) {
+            add_series("slabs.pvd", slabs);
+        }
+        add_series("caps.pvd", caps);
+    }
+
+    void add_series(const char* name, const std::vector<io::SeriesEntry>& entries) {
+        io::write_pvd(path_of(name), entries);
+        result_.files.push_back(path_of(name));
     }
 
     void write_report(const Json& head, io::AtomicFile& file) const {

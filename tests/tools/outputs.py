@@ -35,8 +35,8 @@ class Files(ProgramTest):
     def test_the_files_and_the_report_of_two_slabs(self):
         out, report = self.build(self.case(CIRCLE))
         self.assertEqual(sorted(p.name for p in out.iterdir()),
-                         ["cap_0001.vtu", "cap_0002.vtu", "march.state", "report.json", "slab_0000.msh",
-                          "slab_0000.vtu", "slab_0001.msh", "slab_0001.vtu", "slabs.jsonl"])
+                         ["cap_0001.vtu", "cap_0002.vtu", "caps.pvd", "march.state", "report.json", "slab_0000.msh",
+                          "slab_0000.vtu", "slab_0001.msh", "slab_0001.vtu", "slabs.jsonl", "slabs.pvd"])
         for slab in report["slabs"]:
             self.assertTrue(slab["clean"])
             self.assertGreater(slab["angle"]["smallest"], 0)

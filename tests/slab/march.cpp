@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/march.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/slab/check.h"
+#include "slabhull/slab/initial.h"
+#include "slabhull/slab/tangling.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+#include <set>
+
+using namespace slabhull;
+
+namespace {
+
+/// A coarse turning ellipsoid, or an expanding circle.
+template<int D>
+Case coarse_case() {
+    return D == 2 ? experiment_at("expanding-circle", 0.8) : experiment_at("ellipsoid", 0.3);
+}
+
+template<int D>
+March<D> coarse_march() {
+    const Case the_case = coarse_case<D>();
+    StageClock clock;
+    IdCounter ids;
+    MarchState<D> state = march_from<D>(initial_cap<D>(the_case, ids, {}, clock), the_case.start, ids);
+    SlabSettings<D> settings = settings_of<D>(the_case, state.start_boundary());
+    return {std::move(state), std::move(settings)};
+}
+
+/// The motion of the first moving patch, twice as fast.
+template<int D>
+void correct(March<D>& march) {
+    MovingPatch<D>& body = march.settings().motions.begin()->second;
+    body.motion = D == 2 ? expansion<D>({}, 0.5, 0) : rotation<D>({}, {}, 1);
+    if constexpr (D == 3) {
+        body.motion = rotation<D>({0, 0, 1}, {}, 1);
+    }
+}
+
+template<int D>
+bool same_mesh(const SpatialMesh<D>& a, const SpatialMesh<D>& b) {
+    return a.points == b.points && a.cells == b.cells && a.neighbors == b.neighbors &&
+           a.boundary_facets == b.boundary_facets && a.vertex_ids == b.vertex_ids &&
+           a.track_ids == b.track_ids;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE_SIG("a proposal leaves the march as it was, and the same proposal is the same slab",
+                       "[march]", ((int D), D), 2, 3) {
+    const March<D> march = coarse_march<D>();
+    const SpatialMesh<D> before = march.state().cap;
+    const Slab<D> first = march.propose({0, 0.125, 0.25});
+    const Slab<D> again = march.propose({0, 0.125, 0.25});
+    CHECK(same_mesh(before, march.state().cap));
+    CHECK(march.state().time == 0);
+    CHECK(march.state().slab == 0);
+    CHECK(first.hull.points == again.hull.points);
+    CHECK(first.hull.cells == again.hull.cells);
+    CHECK(first.hull.vertex_ids == again.hull.vertex_ids);
+}
+
+TEMPLATE_TEST_CASE_SIG("a corrected motion gives the same ids to the same vertices", "[march]", ((int D), D),
+                       2, 3) {
+    March<D> march = coarse_march<D>();
+    const Slab<D> predicted = march.propose({0, 0.125, 0.25});
+    correct(march);
+    const Slab<D> corrected = march.propose({0, 0.125, 0.25});
+    const std::size_t side_end = predicted.hull.points.size() - predicted.terminating.points.size();
+    REQUIRE(side_end == corrected.hull.points.size() - corrected.terminating.points.size());
+    const std::size_t boundary = march.state().start_places.size();
+    const std::size_t kept = side_end + boundary;
+    CHECK(std::equal(predicted.hull.vertex_ids.begin(),
+                     predicted.hull.vertex_ids.begin() + static_cast<std::ptrdiff_t>(kept),
+                     corrected.hull.vertex_ids.begin()));
+    CHECK(std::equal(predicted.hull.track_ids.begin(),
+                     predicted.hull.track_ids.begin() + static_cast<std::ptrdiff_t>(kept),
+                     corrected.hull.track_ids.begin()));
+    CHECK(predicted.hull.points != corrected.hull.points);
+    CHECK(check_hull<D>(columns_of(corrected.hull)).clean());
+}
+
+TEMPLATE_TEST_CASE_SIG(
+    "an accepted slab's terminating cap is the next initial cap, and ids are never used twice", "[march]",
+    ((int D), D), 2, 3) {
+    March<D> march = coarse_march<D>();
+    std::set<PersistentId> used{march.state().cap.vertex_ids.begin(), march.state().cap.vertex_ids.end()};
+    for (int k = 0; k < 4; ++k) {
+        const double begin = march.state().time;
+        march.propose({begin, begin + 0.05}); // refused: its ids are given again
+        Slab<D> slab = march.propose({begin, begin + 0.05, begin + 0.1});
+        const std::size_t initial = march.state().cap.points.size();
+        for (std::size_t v = initial; v < slab.hull.points.size(); ++v) {
+            REQUIRE(used.insert(slab.hull.vertex_ids[v]).second);
+        }
+        const SpatialMesh<D> next = slab.terminating;
+        march.accept(std::move(slab));
+        CHECK(same_mesh(next, march.state().cap));
+        CHECK(march.state().slab == k + 1);
+        CHECK(march.state().time == begin + 0.1);
+    }
+}
+
+TEST_CASE("a slab that was not proposed from here is not accepted", "[march]") {
+    March<2> march = coarse_march<2>();
+    Slab<2> first = march.propose({0, 0.1});
+    Slab<2> other = march.propose({0, 0.2});
+    march.accept(std::move(first));
+    CHECK_THROWS_AS(march.accept(std::move(other)), UsageError);
+    CHECK_THROWS_AS(march.propose({0, 0.1}), UsageError);
+    CHECK_THROWS_AS(march.propose({0.1, 0.1}), UsageError);
+    CHECK(march.state().time == 0.1);
+}
+
+TEST_CASE("a boundary that tangles between levels is bracketed to a thousandth of the slab", "[tangling]") {
+    March<2> march = coarse_march<2>();
+    auto& body = march.settings().motions.begin()->second;
+    body.surface = nullptr;
+    const double speed = GENERATE(7.0, 10.0, 31.0);
+    body.motion = translation<2>({speed, 0}); // from the wall at x = 5 the unit circle is 4 away
+    try {
+        march.propose({0, 0.25, 0.5, 0.75, 1});
+        FAIL("not found");
+    } catch (const TangledBoundary& tangled) {
+        CHECK(tangled.good_until < 4 / speed + 1e-12);
+        CHECK(tangled.tangled_at > 4 / speed - 1e-12);
+        CHECK(tangled.tangled_at - tangled.good_until <= 1e-3);
+        REQUIRE(tangled.entities.size() >= 2);
+        CHECK_NOTHROW(march.propose({0, tangled.good_until}));
+    }
+}
+
+TEST_CASE("a vertex that projection would move past its neighbours is refused", "[tangling]") {
+    March<2> march = coarse_march<2>();
+    auto& body = march.settings().motions.begin()->second;
+    body.surface = sphere_surface<2>({0, 0}, 1.3);
+    CHECK_THROWS_WITH(march.propose({0, 0.5}), Catch::Contains("shortest edge") &&
+                                                   Catch::Contains("t = 0.5") && Catch::Contains("body"));
+}
+
+TEST_CASE("vertices where projected patches meet stay on all of their surfaces", "[march]") {
+    // A quarter disk that turns about its tip: its arc is on a circle, its edges are on lines.
+    MarchState<2> state;
+    constexpr int n = 8;
+    state.cap.points.push_back({0, 0});
+    for (int k = 0; k <= n; ++k) {
+        const double angle = 1.5707963267948966 * k / n;
+        state.cap.points.push_back({std::cos(angle), std::sin(angle)});
+    }
+    for (Index k = 1; k <= n; ++k) {
+        state.cap.cells.push_back({0, k, k + 1});
+        state.cap.neighbors.push_back({no_index, k < n ? k : no_index, k > 1 ? k - 2 : no_index});
+        state.cap.boundary_facets.push_back({k, k + 1});
+        state.cap.boundary_patch.push_back(1);
+    }
+    state.cap.boundary_facets.push_back({0, 1});
+    state.cap.boundary_facets.push_back({n + 1, 0});
+    state.cap.boundary_patch.insert(state.cap.boundary_patch.end(), {2, 3});
+    state.cap.patches = {{1, "arc"}, {2, "below"}, {3, "left"}};
+    IdCounter ids{100};
+    for (std::size_t v = 0; v < state.cap.points.size(); ++v) {
+        state.cap.vertex_ids.push_back(static_cast<PersistentId>(v));
+        state.cap.track_ids.push_back(static_cast<TrackId>(v));
+    }
+    SlabSettings<2> settings;
+    settings.trajectory = {Scheme::euler, 8, 1e-10}; // far off, so that projection has something to do
+    const auto turning = rotation<2>({}, {}, 1);
+    settings.motions[1] = {turning, sphere_surface<2>({0, 0}, 1)};
+    settings.motions[2] = {turning, plane_surface<2>({0, 0}, {0, 1})};
+    settings.motions[3] = {turning, plane_surface<2>({0, 0}, {1, 0})};
+    const March<2> march{march_from<2>(state.cap, 0, ids), settings};
+    const Slab<2> slab = march.propose({0, 0.5});
+    const auto& end = slab.terminating.points;
+    CHECK(std::hypot(end[0][0], end[0][1]) < 1e-12);
+    for (const int corner : {1, n + 1}) {
+        const double angle = 0.5 + (corner == 1 ? 0 : 1.5707963267948966);
+        const auto& at = end[static_cast<std::size_t>(corner)];
+        CHECK(std::hypot(at[0] - std::cos(angle), at[1] - std::sin(angle)) < 1e-12);
+    }
+    CHECK(slab.projected.at(1).largest > 1e-3);
+}

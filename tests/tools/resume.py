@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""Runs that are interrupted, by SIGKILL at random moments or by a full disk, and go on as if they had not been."""
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+
+from harness import PROGRAM, ProgramTest, main, slabhull
+
+CASE = """
+dimension = {dimension}
+[initial]
+experiment = "{experiment}"
+level = 1
+[time]
+start = 0.0
+end = 1.0
+slabs = {slabs}
+layers = 1
+[output]
+formats = ["vtu"]
+"""
+TIMED = ("report.json", "slabs.jsonl", "march.state")  # tell how long it took
+
+
+def contents(directory):
+    return {p.name: p.read_bytes() for p in sorted(directory.iterdir()) if p.name not in TIMED}
+
+
+class Interrupted(ProgramTest):
+    def reference(self, dimension, experiment, slabs):
+        case = self.case(CASE.format(dimension=dimension, experiment=experiment, slabs=slabs))
+        begin = time.monotonic()
+        out, report = self.build(case, out="reference")
+        self.assertEqual(len(report["slabs"]), slabs)
+        return case, contents(out), time.monotonic() - begin
+
+    def kill_at_random(self, case, out, longest, rng):
+        """Starts a run that resumes and kills it; False when it came to its end before."""
+        run = subprocess.Popen([PROGRAM, "build", case, "--out", out, "--quiet", "--resume"],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        time.sleep(rng.uniform(0, longest))
+        killed = run.poll() is None
+        run.send_signal(signal.SIGKILL)
+        error = run.communicate()[1].decode()
+        if not killed:
+            self.assertEqual(run.returncode, 0, error)
+        return killed
+
+    def killed_runs(self, dimension, experiment, slabs, kills, seed):
+        case, expected, duration = self.reference(dimension, experiment, slabs)
+        rng = random.Random(seed)
+        out = self.dir / "out"
+        done, most = 0, 0
+        while done < kills:
+            if self.kill_at_random(case, out, duration / 4, rng):
+                done += 1
+            else:  # finished between kills: compare, then begin anew
+                self.assertEqual(contents(out), expected)
+                shutil.rmtree(out)
+            accepted = self.accepted(out)
+            self.assertTrue(accepted >= most or accepted == 0)
+            most = accepted
+        result = slabhull("build", case, "--out", out, "--quiet", "--resume")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertEqual(contents(out), expected)
+        report = json.loads((out / "report.json").read_text())
+        self.assertEqual([slab["slab"] for slab in report["slabs"]], list(range(slabs)))
+
+    def accepted(self, out):
+        """Slabs whose lines are in the journal: each of them, and its cap, is whole."""
+        if not (out / "slabs.jsonl").exists():
+            return 0
+        lines = (out / "slabs.jsonl").read_text().splitlines()[1:]
+        return sum(line.endswith("}") for line in lines)
+
+    def test_fifty_kills_of_a_long_march(self):
+        self.killed_runs(2, "expanding-circle", 40, 50, seed=4)
+
+    def test_kills_while_tetgen_works(self):
+        self.killed_runs(3, "sphere", 3, 4, seed=5)
+
+    def test_a_resumed_run_that_is_complete_has_nothing_to_do(self):
+        case, expected, _ = self.reference(2, "circle", 3)
+        out = self.dir / "reference"
+        before = (out / "march.state").read_bytes()
+        result = slabhull("build", case, "--out", out, "--resume")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("0 slabs", result.out)
+        self.assertEqual(contents(out), expected)
+        self.assertEqual((out / "march.state").read_bytes(), before)
+
+    def test_without_a_checkpoint_it_begins_and_says_so(self):
+        case, expected, _ = self.reference(2, "circle", 2)
+        result = slabhull("build", case, "--out", self.dir / "out", "--resume")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("from the beginning", result.err)
+        self.assertEqual(contents(self.dir / "out"), expected)
+
+    def test_damaged_files_are_not_gone_on_from(self):
+        case, _, _ = self.reference(2, "circle", 2)
+        out = self.dir / "reference"
+        for name in ("march.state", "cap_0002.vtu", "slabs.jsonl"):
+            with self.subTest(name):
+                sound = (out / name).read_bytes()
+                (out / name).write_bytes(sound[:len(sound) // 2])
+                result = slabhull("build", case, "--out", out, "--resume")
+                self.assertEqual(result.code, 3, result.err)
+                self.assertIn(name, result.err)
+                (out / name).write_bytes(sound)
+
+
+class FullDisk(ProgramTest):
+    def test_a_full_disk_loses_nothing_accepted(self):
+        case = self.case(CASE.format(dimension=2, experiment="circle", slabs=12))
+        expected = contents(self.build(case, out="reference")[0])
+        disk = self.dir / "disk"
+        disk.mkdir()
+        half = sum(map(len, expected.values())) // 2
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={half}", "tmpfs", disk],
+                          capture_output=True).returncode != 0:
+            self.skipTest("a small file system cannot be mounted here")
+        self.addCleanup(subprocess.run, ["umount", disk])
+        full = slabhull("build", case, "--out", disk, "--quiet")
+        self.assertEqual(full.code, 5, full.err)
+        self.assertIn("No space left", full.err)
+        there = contents(disk)
+        self.assertGreater(len(there), 4)
+        for name, content in there.items():
+            if not name.endswith(".pvd"):
+                self.assertEqual(content, expected[name], name)
+        subprocess.run(["mount", "-o", f"remount,size={4 * half}", disk], check=True)
+        result = slabhull("build", case, "--out", disk, "--quiet", "--resume")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertEqual(contents(disk), expected)
+
+
+if __name__ == "__main__":
+    main()
