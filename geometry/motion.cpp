@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/motion.h"
 
+#include "turn.h"
 #include "vector_algebra.h"
 
 #include "slabhull/core/error.h"
@@ -44,21 +45,11 @@ private:
     Point<D> velocity_;
 };
 
-/// The rows of x -> axis x x, a quarter turn in the plane across the (unit) axis.
-std::array<Point<3>, 3> quarter_turn(const Point<3>& axis) {
-    const Point<3> a = unit_vector(axis, "the axis of a rotation");
-    return {{{0, -a[2], a[1]}, {a[2], 0, -a[0]}, {-a[1], a[0], 0}}};
-}
-
-std::array<Point<2>, 2> quarter_turn(const Point<2>&) {
-    return {{{0, -1}, {1, 0}}};
-}
-
 template<int D>
 class Rotation final : public Motion<D> {
 public:
     Rotation(const Point<D>& axis, const Point<D>& centre, double rate)
-        : turn_{quarter_turn(axis), {}}, centre_{centre}, rate_{rate} {
+        : turn_{quarter_turn(axis)}, centre_{centre}, rate_{rate} {
         require_finite(centre, "the centre of a rotation");
         require_finite(rate, "the rate of a rotation");
     }
@@ -67,19 +58,8 @@ public:
             v[i] = times(rate_, turn_.linear(minus(x[i], centre_)));
         }
     }
-    /// Rodrigues' formula, R = 1 + sin(angle) W + (1 - cos(angle)) W^2 with the quarter turn W; it holds in
-    /// the plane, too.
     std::optional<AffineMap<D>> map(double from, double to) const override {
-        const double angle = rate_ * (to - from);
-        const double versine = 2 * std::sin(angle / 2) * std::sin(angle / 2);
-        const AffineMap<D> half_turn = compose(turn_, turn_);
-        std::array<Point<D>, D> rows = AffineMap<D>::unit_rows();
-        for (std::size_t i = 0; i < D; ++i) {
-            for (std::size_t j = 0; j < D; ++j) {
-                rows[i][j] += std::sin(angle) * turn_.rows[i][j] + versine * half_turn.rows[i][j];
-            }
-        }
-        return map_about<D>(centre_, rows);
+        return map_about<D>(centre_, turn_by<D>(rate_ * (to - from), turn_).rows);
     }
     bool moves() const override { return rate_ != 0; }
 

@@ -4,6 +4,7 @@
 #include "slabhull/core/error.h"
 
 #include "key_table.h"
+#include "motion_keys.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -139,80 +140,15 @@ private:
     }
 
     void read_patches() {
+        const PatchKeysContext context{case_.dimension, case_.end - case_.start, directory_};
         KeyTable motions = root_.optional_table("motion");
         for (const std::string& patch : motions.keys()) {
-            case_.motions[patch] = read_motion(motions.table(patch));
+            case_.motions[patch] = read_motion(motions.table(patch), context);
         }
         KeyTable projections = root_.optional_table("project");
         for (const std::string& patch : projections.keys()) {
-            case_.projections[patch] = read_projection(projections.table(patch));
+            case_.projections[patch] = read_projection(projections.table(patch), context);
         }
-    }
-
-    MotionSpec read_motion(KeyTable table) {
-        using Kind = MotionSpec::Kind;
-        MotionSpec motion;
-        motion.kind = table.choice<Kind>("kind", {{"rotation", Kind::rotation},
-                                                  {"translation", Kind::translation},
-                                                  {"expansion", Kind::expansion},
-                                                  {"velocity", Kind::velocity}});
-        switch (motion.kind) {
-        case Kind::rotation:
-            if (case_.dimension == 3) {
-                motion.axis = table.direction("axis", 3);
-            }
-            motion.centre = table.numbers("centre", case_.dimension);
-            motion.rate = table.number("rate");
-            break;
-        case Kind::translation:
-            motion.velocity = table.numbers("velocity", case_.dimension);
-            break;
-        case Kind::expansion:
-            motion.centre = table.numbers("centre", case_.dimension);
-            motion.rate = table.number("rate");
-            if (1 + motion.rate * (case_.end - case_.start) <= 0) {
-                table.fail("rate", "a rate that keeps 1 + rate (end - start) positive");
-            }
-            break;
-        case Kind::velocity:
-            motion.formula = table.texts("formula", case_.dimension);
-            motion.constants = table.optional_constants("constants");
-            break;
-        }
-        table.require_all_known();
-        return motion;
-    }
-
-    ProjectionSpec read_projection(KeyTable table) {
-        using Kind = ProjectionSpec::Kind;
-        const bool solid = case_.dimension == 3;
-        ProjectionSpec spec;
-        const std::string ball = solid ? "sphere" : "circle";
-        const std::string egg = solid ? "ellipsoid" : "ellipse";
-        std::map<std::string, Kind> kinds{
-            {ball, Kind::sphere}, {egg, Kind::ellipsoid}, {"plane", Kind::plane}};
-        if (solid) {
-            kinds["cylinder"] = Kind::cylinder;
-        }
-        spec.kind = table.choice<Kind>("surface", kinds);
-        spec.centre = table.numbers(spec.kind == Kind::plane ? "point" : "centre", case_.dimension);
-        switch (spec.kind) {
-        case Kind::sphere:
-            spec.semi_axes.assign(static_cast<std::size_t>(case_.dimension), table.positive("radius"));
-            break;
-        case Kind::ellipsoid:
-            spec.semi_axes = table.positives("semi_axes", case_.dimension);
-            break;
-        case Kind::cylinder:
-            spec.direction = table.direction("axis", 3);
-            spec.radius = table.positive("radius");
-            break;
-        case Kind::plane:
-            spec.direction = table.direction("normal", case_.dimension);
-            break;
-        }
-        table.require_all_known();
-        return spec;
     }
 
     void read_trajectory() {

@@ -4,49 +4,13 @@
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/embedding.h"
 
-#include "numbers.h"
+#include "patch_motions.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace slabhull {
 
 namespace {
-
-template<int D>
-MotionPointer<D> motion_of(const MotionSpec& spec, double start) {
-    switch (spec.kind) {
-    case MotionSpec::Kind::rotation:
-        return rotation<D>(as_point<D>(spec.axis), as_point<D>(spec.centre), spec.rate);
-    case MotionSpec::Kind::translation:
-        return translation<D>(as_point<D>(spec.velocity));
-    case MotionSpec::Kind::expansion:
-        return expansion<D>(as_point<D>(spec.centre), spec.rate, start);
-    case MotionSpec::Kind::velocity:
-        break;
-    }
-    std::array<std::string, D> formulas;
-    std::copy_n(spec.formula.begin(), D, formulas.begin());
-    return formula_velocity<D>(formulas, spec.constants);
-}
-
-template<int D>
-ProjectionSurfacePointer<D> projection_of(const ProjectionSpec& spec) {
-    switch (spec.kind) {
-    case ProjectionSpec::Kind::sphere:
-        return sphere_surface<D>(as_point<D>(spec.centre), spec.semi_axes.front());
-    case ProjectionSpec::Kind::ellipsoid:
-        return ellipsoid_surface<D>(as_point<D>(spec.centre), as_point<D>(spec.semi_axes));
-    case ProjectionSpec::Kind::cylinder:
-        if constexpr (D == 3) {
-            return cylinder_surface(as_point<3>(spec.centre), as_point<3>(spec.direction), spec.radius);
-        }
-        break;
-    case ProjectionSpec::Kind::plane:
-        break;
-    }
-    return plane_surface<D>(as_point<D>(spec.centre), as_point<D>(spec.direction));
-}
 
 PatchNumber number_of(const PatchList& patches, const std::string& name, const char* table) {
     const PatchNumber number = patch_number(patches, name);
@@ -88,7 +52,12 @@ SlabSettings<D> settings_of(const Case& the_case, const PatchList& patches) {
     settings.side = {the_case.split, the_case.diagonals};
     settings.cap = cap_options(the_case);
     for (const auto& [patch, spec] : the_case.motions) {
-        settings.motions[number_of(patches, patch, "motion")].motion = motion_of<D>(spec, the_case.start);
+        const PatchNumber number = number_of(patches, patch, "motion");
+        try {
+            settings.motions[number].motion = motion_of<D>(spec, the_case);
+        } catch (const UsageError& error) {
+            throw UsageError(fmt::format("[motion.{}]: {}", patch, error.what()));
+        }
     }
     for (const auto& [patch, spec] : the_case.projections) {
         MovingPatch<D>& moving = settings.motions[number_of(patches, patch, "project")];

@@ -5,11 +5,13 @@
 #include "slabhull/geometry/affine.h"
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace slabhull {
 
@@ -64,6 +66,30 @@ template<int D>
 MotionPointer<D> formula_velocity(const std::array<std::string, D>& formulas,
                                   const std::map<std::string, double>& constants = {});
 
+/// v(x, t) at one point.
+template<int D>
+using VelocityOfPoint = std::function<Point<D>(const Point<D>& x, double t)>;
+/// v[i] = v(x[i], t) for many points.
+template<int D>
+using VelocityOfPoints = std::function<void(std::span<const Point<D>> x, double t, std::span<Point<D>> v)>;
+
+/// The velocity field of the caller's function, which must be callable from several threads at once and give
+/// the same values however the points are divided among calls. What it throws comes through; where its value
+/// is not finite, velocity() throws GeometryError naming the point and the time. Throws UsageError for no
+/// function.
+template<int D>
+MotionPointer<D> velocity_field(VelocityOfPoint<D> velocity);
+template<int D>
+MotionPointer<D> velocity_field(VelocityOfPoints<D> velocity);
+
+/// Motions about moving frames, inner first: a point goes with the first step, that with the second, and so
+/// on. At time t the point that was at x0 at `start` is at M_k(t)( .. M_1(t)(x0)), M_i(t) being what step i
+/// does from `start` to t. So axes and centres are those at `start`; a later step carries the earlier ones
+/// with it. A step may be a sequence. Throws UsageError for no steps, and when a step after the first has no
+/// closed form. There is a closed form when all steps have one. Cost of velocity(): the sum of the steps'.
+template<int D>
+MotionPointer<D> sequence(std::vector<MotionPointer<D>> steps, double start);
+
 extern template MotionPointer<2> standing<2>();
 extern template MotionPointer<3> standing<3>();
 extern template MotionPointer<2> rotation<2>(const Point<2>&, const Point<2>&, double);
@@ -76,5 +102,11 @@ extern template MotionPointer<2> formula_velocity<2>(const std::array<std::strin
                                                      const std::map<std::string, double>&);
 extern template MotionPointer<3> formula_velocity<3>(const std::array<std::string, 3>&,
                                                      const std::map<std::string, double>&);
+extern template MotionPointer<2> velocity_field<2>(VelocityOfPoint<2>);
+extern template MotionPointer<3> velocity_field<3>(VelocityOfPoint<3>);
+extern template MotionPointer<2> velocity_field<2>(VelocityOfPoints<2>);
+extern template MotionPointer<3> velocity_field<3>(VelocityOfPoints<3>);
+extern template MotionPointer<2> sequence<2>(std::vector<MotionPointer<2>>, double);
+extern template MotionPointer<3> sequence<3>(std::vector<MotionPointer<3>>, double);
 
 } // namespace slabhull

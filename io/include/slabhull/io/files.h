@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slabhull/io/atomic_file.h"
+#include "slabhull/io/csv_table.h"
 #include "slabhull/io/soup.h"
 
 #include <filesystem>
@@ -34,6 +35,16 @@ Soup read_surface(const std::filesystem::path& path);
 /// A closed curve: a line "x y" per point, in order; a last point equal to the first is dropped; lines that
 /// start with a letter (airfoil titles) or '#' are skipped. Lines of the soup have dimension 1.
 Soup read_curve(const std::filesystem::path& path);
+
+/// Numbers in columns with names. The first line that is not blank names them, perhaps behind a '#'; then a
+/// line per row. Fields are parted by commas, or by semicolons or by blanks when the header has no commas;
+/// names and numbers may stand in double quotes. Blank lines and lines that start with '#' are skipped. Every
+/// field must be a finite number with a decimal point. At most 1000 columns.
+CsvTable read_csv(const std::filesystem::path& path);
+/// The same; but a file that starts like OpenFOAM's table of six degrees of freedom, the list of rows
+/// (time ((x y z) (roll pitch yaw))) of its tabulated6DoFMotion, becomes a table with the columns time, x, y,
+/// z, roll_deg, pitch_deg, yaw_deg.
+CsvTable read_motion_table(const std::filesystem::path& path);
 
 /// VTU, appended raw, UInt64 headers, little-endian; connectivity in 32 bits where it fits. Text arrays are
 /// UInt8, each text ended by a zero byte (meshio opens no file with a string array of VTK's own kind);

@@ -52,7 +52,7 @@ struct InitialBodies {
 };
 
 struct MotionSpec {
-    enum class Kind { rotation, translation, expansion, velocity };
+    enum class Kind { rotation, translation, expansion, velocity, rigid_table, sequence };
     Kind kind = Kind::translation;
     Numbers axis{0, 0, 1};
     Numbers centre;
@@ -60,6 +60,8 @@ struct MotionSpec {
     double rate = 0;
     std::vector<std::string> formula;
     std::map<std::string, double> constants;
+    std::filesystem::path table;   ///< of a rigid table; of a rotation where it is not empty, for the rate
+    std::vector<MotionSpec> steps; ///< of a sequence, inner first
 };
 
 struct ProjectionSpec {

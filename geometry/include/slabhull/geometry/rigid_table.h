@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/geometry/motion.h"
+
+#include <vector>
+
+namespace slabhull {
+
+// Motions of a rigid body given at instants, in rows. Between them cubic splines with two continuous
+// derivatives ("not-a-knot" ends), exact at the rows; the velocity is their derivative. The error between
+// rows that sample a smooth motion is of order 4 in their spacing, that of the velocity of order 3; two rows
+// give a line, three a parabola. map() composes and inverts the rigid placements in closed form, so it does
+// not matter where the body is at the first row.
+//
+// The factories throw UsageError, with the entity "row" (counted from 0) where one is at fault: fewer than
+// two rows, times not strictly ascending, a value not finite. velocity() and map() throw GeometryError,
+// naming the times of the table, at times outside them by more than a billionth of their range.
+
+/// Angles in radians by time. Turns of more than half a turn between rows are what they say.
+struct AngleTable {
+    std::vector<double> times;
+    std::vector<double> angles;
+};
+
+/// Turns about the axis through `centre` (D = 2: counter-clockwise, `axis` is ignored) by the tabulated
+/// angle, right-handed.
+template<int D>
+MotionPointer<D> rotation(const Point<D>& axis, const Point<D>& centre, const AngleTable& table);
+
+/// Places of a rigid body by time: a point x of the body at rest is at centre + shift + R (x - centre).
+template<int D>
+struct RigidTable {
+    std::vector<double> times;
+    std::vector<Point<D>> shifts; ///< one per time, or none: no displacement
+
+    /// In radians, one set per time, or none. D = 2: counter-clockwise. D = 3: roll, pitch and yaw, with
+    /// R = Rx(roll) Ry(pitch) Rz(yaw): the body yaws first. This is how OpenFOAM composes the angles of its
+    /// tabulated6DoFMotion and sixDoFMotion (quaternion::XYZ in primitives/quaternion/quaternionI.H).
+    /// Splined as they are: turns of more than half a turn between rows are what they say.
+    std::vector<Point<D == 2 ? 1 : 3>> angles;
+
+    /// D = 3, instead of angles: unit quaternions w, x, y, z, of either sign, one per time, or none. They are
+    /// normalised, given the sign nearer to the row before, splined, and normalised again. Two rows may be
+    /// at most 179 degrees of turning apart: from there on the sense cannot be told.
+    std::vector<Point<4>> quaternions;
+};
+
+/// Moves with the rigid body. Throws UsageError also for arrays of different lengths, angles beside
+/// quaternions, quaternions that are not of length 1 within 0.001 or for D = 2; velocity() and map() throw
+/// GeometryError also where the spline of the quaternions comes near zero, since the rows are too far apart.
+template<int D>
+MotionPointer<D> rigid_table(const RigidTable<D>& table, const Point<D>& centre);
+
+extern template MotionPointer<2> rotation<2>(const Point<2>&, const Point<2>&, const AngleTable&);
+extern template MotionPointer<3> rotation<3>(const Point<3>&, const Point<3>&, const AngleTable&);
+extern template MotionPointer<2> rigid_table<2>(const RigidTable<2>&, const Point<2>&);
+extern template MotionPointer<3> rigid_table<3>(const RigidTable<3>&, const Point<3>&);
+
+} // namespace slabhull
