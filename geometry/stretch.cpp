@@ -66,8 +66,9 @@ public:
         return v;
     }
     void join(Index a, Index b) {
-        const auto [low, high] = std::minmax(representative(a), representative(b));
-        parent_[high] = low;
+        a = representative(a);
+        b = representative(b);
+        parent_[std::max(a, b)] = std::min(a, b);
     }
 
 private:
