@@ -3,6 +3,7 @@
 
 #include "slabhull/geometry/displacement_series.h"
 #include "slabhull/slab/case.h"
+#include "slabhull/slab/displacement_match.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 #include "motion_tables.h"
@@ -11,15 +12,6 @@
 #include <span>
 
 namespace slabhull {
-
-/// How the vertices of a patch were found in its files of displacements.
-struct DisplacementMatch {
-    std::size_t files = 0;
-    std::size_t vertices = 0;    ///< of the patch
-    double tolerance = 0;        ///< distance allowed
-    double largest = 0;          ///< distance between a vertex and its row
-    std::filesystem::path where; ///< the file of that row; empty when all distances are zero
-};
 
 template<int D>
 struct DisplacementFiles {
