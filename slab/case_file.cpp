@@ -162,6 +162,12 @@ private:
         KeyTable projections = root_.optional_table("project");
         for (const std::string& patch : projections.keys()) {
             case_.projections[patch] = read_projection(projections.table(patch), context);
+            const auto motion = case_.motions.find(patch);
+            if (motion != case_.motions.end() &&
+                motion->second.kind == MotionSpec::Kind::displacement_series) {
+                projections.fail(patch, "no projection of a patch whose motion is a displacement-series, for "
+                                        "nothing says how the surface would move");
+            }
         }
     }
 

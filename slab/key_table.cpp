@@ -167,9 +167,11 @@ double KeyTable::positive(const std::string& key) {
 }
 
 std::vector<double> KeyTable::numbers(const std::string& key, int count) {
-    const std::string expected = fmt::format("a list of {} finite numbers", count);
+    const std::string expected =
+        count < 0 ? "a list of finite numbers" : fmt::format("a list of {} finite numbers", count);
     const toml::node* node = node_->find(key);
-    if (node == nullptr || !node->is_array() || node->as_array()->size() != static_cast<std::size_t>(count)) {
+    if (node == nullptr || !node->is_array() ||
+        (count >= 0 && node->as_array()->size() != static_cast<std::size_t>(count))) {
         fail(key, expected);
     }
     std::vector<double> values;

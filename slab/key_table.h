@@ -27,7 +27,7 @@ public:
     double number(const std::string& key);
     double number_or(const std::string& key, double otherwise);
     double positive(const std::string& key);
-    /// `count` numbers; all of them finite.
+    /// `count` numbers, any number when it is negative; all of them finite.
     std::vector<double> numbers(const std::string& key, int count);
     std::vector<double> positives(const std::string& key, int count);
     /// `count` numbers that are not all zero.

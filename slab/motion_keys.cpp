@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "motion_keys.h"
 
+#include <algorithm>
+#include <fmt/format.h>
+#include <functional>
+
 namespace slabhull {
 
 namespace {
@@ -44,9 +48,64 @@ void read_rigid_table(KeyTable& table, const PatchKeysContext& context, MotionSp
     motion.centre = table.numbers("centre", context.dimension);
 }
 
+std::vector<std::filesystem::path> files_in(const std::vector<std::string>& names,
+                                            const std::filesystem::path& directory) {
+    std::vector<std::filesystem::path> files;
+    for (const std::string& name : names) {
+        files.push_back(directory / name);
+    }
+    return files;
+}
+
+void read_times(KeyTable& table, DisplacementSpec& displacements) {
+    displacements.times = table.numbers("times", -1);
+    const auto& times = displacements.times;
+    if (times.empty() ||
+        std::adjacent_find(times.begin(), times.end(), std::greater_equal{}) != times.end()) {
+        table.fail("times", "a list of times that ascend");
+    }
+    if (!displacements.files.empty() && times.size() != displacements.files.size()) {
+        table.fail("times", fmt::format("{} times, one for each file, not {}", displacements.files.size(),
+                                        times.size()));
+    }
+}
+
+void read_displacement_series(KeyTable& table, const PatchKeysContext& context, MotionSpec& motion) {
+    DisplacementSpec& displacements = motion.displacements;
+    if (table.has("files") == table.has("pattern")) {
+        table.fail(table.has("files") ? "pattern" : "files", "exactly one of \"files\" and \"pattern\"");
+    }
+    if (table.has("files")) {
+        displacements.files = files_in(table.texts("files", -1), context.directory);
+        if (displacements.files.empty()) {
+            table.fail("files", "a list of file names");
+        }
+    } else {
+        displacements.pattern = context.directory / table.text("pattern");
+    }
+    if (table.has("times")) {
+        read_times(table, displacements);
+    }
+    displacements.array = table.optional_text("array").value_or(displacements.array);
+    if (table.has("tolerance")) {
+        displacements.tolerance = table.positive("tolerance");
+    }
+    if (table.has("interpolation")) {
+        displacements.interpolation = table.choice<TimeInterpolation>(
+            "interpolation", {{"linear", TimeInterpolation::linear}, {"cubic", TimeInterpolation::cubic}});
+    }
+}
+
+void read_stretch(KeyTable&, const PatchKeysContext&, MotionSpec&) {} // its neighbours say all
+
 void read_sequence(KeyTable& table, const PatchKeysContext& context, MotionSpec& motion) {
     for (KeyTable& step : table.optional_tables("steps")) {
         motion.steps.push_back(read_motion(step, context));
+        if (!motion.steps.back().is_field()) {
+            step.fail("kind",
+                      "a motion of space: a step of a sequence can neither be a displacement-series nor "
+                      "a stretch");
+        }
     }
     if (motion.steps.empty()) {
         table.fail("steps", "a list of tables, one for each motion, the inner first");
@@ -67,6 +126,8 @@ const std::map<std::string, MotionKind>& motion_kinds() {
         {"velocity", {Kind::velocity, read_velocity}},
         {"rigid-table", {Kind::rigid_table, read_rigid_table}},
         {"sequence", {Kind::sequence, read_sequence}},
+        {"displacement-series", {Kind::displacement_series, read_displacement_series}},
+        {"stretch", {Kind::stretch, read_stretch}},
     };
     return kinds;
 }

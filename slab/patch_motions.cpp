@@ -5,6 +5,7 @@
 #include "numbers.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace slabhull {
 
@@ -52,9 +53,12 @@ MotionPointer<D> motion_of(const MotionSpec& spec, const Case& the_case) {
     case MotionSpec::Kind::sequence:
         return sequence_of<D>(spec, the_case);
     case MotionSpec::Kind::velocity:
+        return formula_of<D>(spec);
+    case MotionSpec::Kind::displacement_series:
+    case MotionSpec::Kind::stretch:
         break;
     }
-    return formula_of<D>(spec);
+    throw std::invalid_argument("displacement series and stretching patches are no fields of velocities");
 }
 
 template<int D>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/geometry/displacement_series.h"
 #include "slabhull/geometry/trajectory.h"
 #include "slabhull/topology/prism_split.h"
 
@@ -52,8 +53,27 @@ struct InitialBodies {
     std::variant<BoxSpec, BodyFile> outer;
 };
 
+/// Files that say how the vertices of a patch are displaced, one for each time.
+struct DisplacementSpec {
+    std::vector<std::filesystem::path> files; ///< by time; or, when empty:
+    std::filesystem::path pattern;            ///< '*' in its file name stands for a number
+    std::vector<double> times;                ///< empty: where the files say
+    std::string array = "displacement";       ///< of VTU files
+    std::optional<double> tolerance;          ///< between vertices and rows; by default by the patch's extent
+    TimeInterpolation interpolation = TimeInterpolation::cubic;
+};
+
 struct MotionSpec {
-    enum class Kind { rotation, translation, expansion, velocity, rigid_table, sequence };
+    enum class Kind {
+        rotation,
+        translation,
+        expansion,
+        velocity,
+        rigid_table,
+        sequence,
+        displacement_series,
+        stretch
+    };
     Kind kind = Kind::translation;
     Numbers axis{0, 0, 1};
     Numbers centre;
@@ -63,6 +83,10 @@ struct MotionSpec {
     std::map<std::string, double> constants;
     std::filesystem::path table;   ///< of a rigid table; of a rotation where it is not empty, for the rate
     std::vector<MotionSpec> steps; ///< of a sequence, inner first
+    DisplacementSpec displacements;
+
+    /// Said by a field of velocities, which motion_of() makes.
+    bool is_field() const { return kind != Kind::displacement_series && kind != Kind::stretch; }
 };
 
 struct ProjectionSpec {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/array.h"
+#include "slabhull/core/point.h"
+
+#include <span>
+#include <vector>
+
+namespace slabhull::detail {
+
+/// An edge of a Laplacian's graph.
+struct WeightedEdge {
+    Index from;
+    Index to;
+    double weight;
+};
+
+/// Cotangent weights (cot alpha + cot beta) / 2 of a piece of a surface, never negative inside of it.
+///
+/// The edges are those of the surface's intrinsic Delaunay triangulation: those of the given triangles are
+/// flipped on the surface, which keeps its shape, until all weights are non-negative. So a harmonic function
+/// stays between its boundary values whatever the triangles' angles, and on a flat piece linear functions are
+/// harmonic. Edges on the rim of the piece are not flipped and may keep a negative weight. An edge may come
+/// more than once.
+/// Fisher, Springborn, Bobenko, Schroeder, "An algorithm for the construction of intrinsic Delaunay
+/// triangulations with applications to digital geometry processing" (2007).
+///
+/// Needs: triangles of an oriented manifold with or without boundary, with different vertices.
+/// Cost: near-linear where few edges must be flipped.
+std::vector<WeightedEdge> cotangent_edges(std::span<const Point<3>> points, std::span<const Facet<3>> facets);
+
+} // namespace slabhull::detail
