@@ -5,68 +5,55 @@
 #include "slabhull/core/index.h"
 #include "slabhull/core/parallel.h"
 
-#include <atomic>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 namespace slabhull {
 
-/// Cells filed under vertices, in compressed rows. The order inside a row depends on the threads: use it as a
-/// set.
+/// Cells filed in rows (under vertices, say), compressed. Ascending in each row.
 struct CellLists {
-    Array<std::uint64_t> begin; ///< vertex_count + 1 entries
+    Array<std::uint64_t> begin; ///< row_count + 1 entries
     Array<Index> cells;
 
-    std::span<const Index> of(std::size_t vertex) const {
-        return {cells.data() + begin[vertex], static_cast<std::size_t>(begin[vertex + 1] - begin[vertex])};
+    std::span<const Index> of(std::size_t row) const {
+        return {cells.data() + begin[row], static_cast<std::size_t>(begin[row + 1] - begin[row])};
     }
 };
 
-namespace detail {
-
-inline constexpr std::size_t cells_per_piece = 1 << 16;
-
-/// Old value of a counter that other threads may be counting on, too. Alone, we save the locked instruction.
-inline std::uint64_t count_up(std::uint64_t& counter, bool alone) {
-    if (alone) {
-        return counter++;
-    }
-    return std::atomic_ref{counter}.fetch_add(1, std::memory_order_relaxed);
-}
-
-inline std::uint64_t count_down(std::uint64_t& counter, bool alone) {
-    if (alone) {
-        return --counter;
-    }
-    return std::atomic_ref{counter}.fetch_sub(1, std::memory_order_relaxed) - 1;
-}
-
-} // namespace detail
-
-/// Files each cell under the vertices that `keys(cell, file)` hands to file(vertex).
-/// Two passes of counting sort, so `keys` must say the same twice.
-template<class Keys>
-CellLists list_cells(std::size_t cell_count, std::size_t vertex_count, const Keys& keys) {
-    const bool alone = thread_count() == 1;
-    CellLists lists;
-    lists.begin.assign(vertex_count + 1, 0);
-    parallel_for(cell_count, detail::cells_per_piece, [&](std::size_t begin, std::size_t end) {
+/// Files each cell in the rows that `rows(cell, file)` hands to file(row).
+/// Two passes of counting sort, so `rows` must say the same twice. Each thread takes one part of the cells
+/// and has its own counters, 8 bytes for each row.
+template<class Rows>
+CellLists list_cells(std::size_t cell_count, std::size_t row_count, const Rows& rows) {
+    const auto parts = static_cast<std::size_t>(thread_count());
+    const std::size_t part_size = std::max<std::size_t>(1, (cell_count + parts - 1) / parts);
+    Array<std::uint64_t> next; // by part and row
+    next.assign(parts * row_count, 0);
+    parallel_for(cell_count, part_size, [&](std::size_t begin, std::size_t end) {
+        std::uint64_t* const count = next.data() + begin / part_size * row_count;
         for (std::size_t c = begin; c < end; ++c) {
-            keys(c, [&](Index vertex) { detail::count_up(lists.begin[vertex], alone); });
+            rows(c, [count](std::size_t row) { ++count[row]; });
         }
     });
-    // Row ends; filling backwards from them turns them into row beginnings.
+    CellLists lists;
+    lists.begin.resize(row_count + 1);
     std::uint64_t sum = 0;
-    for (std::uint64_t& end : lists.begin) {
-        end = sum += end;
+    for (std::size_t row = 0; row < row_count; ++row) {
+        lists.begin[row] = sum;
+        for (std::size_t k = row; k < next.size(); k += row_count) {
+            sum += std::exchange(next[k], sum);
+        }
     }
+    lists.begin[row_count] = sum;
     lists.cells.resize(sum);
-    parallel_for(cell_count, detail::cells_per_piece, [&](std::size_t begin, std::size_t end) {
+    parallel_for(cell_count, part_size, [&](std::size_t begin, std::size_t end) {
+        std::uint64_t* const place = next.data() + begin / part_size * row_count;
         for (std::size_t c = begin; c < end; ++c) {
-            keys(c, [&](Index vertex) {
-                lists.cells[detail::count_down(lists.begin[vertex], alone)] = static_cast<Index>(c);
-            });
+            rows(c,
+                 [&lists, place, c](std::size_t row) { lists.cells[place[row]++] = static_cast<Index>(c); });
         }
     });
     return lists;

@@ -115,8 +115,9 @@ TEST_CASE("any soup gets the neighbours and defects that a map of all facets giv
                                  30); // repeated vertices, overfull facets and all
         require_like_the_book<2>(random_soup<2>(60, 12, seed), 12);
         require_like_the_book<3>(random_soup<3>(200, 12, seed), 12);
-        require_like_the_book<3>(random_soup<3>(900, 8, seed), 8); // buckets too large for hashing
+        require_like_the_book<3>(random_soup<3>(900, 50, seed), 50); // several buckets
     }
+    require_like_the_book<3>(random_soup<3>(30000, 60, 1), 60); // a bucket too large for hashing
 }
 
 TEST_CASE("a missing cell leaves its facets open, and only them") {
