@@ -277,6 +277,12 @@ private:
         for (const Patch& patch : patches_) {
             head["patches"][std::to_string(patch.number)] = patch.name;
         }
+        for (const auto& [patch, match] : march_->settings().matches) {
+            head["displacements"][patch_name(patches_, patch)] = {{"files", match.files},
+                                                                  {"vertices", match.vertices},
+                                                                  {"tolerance", match.tolerance},
+                                                                  {"largest_distance", match.largest}};
+        }
         head["peak_memory"] = {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};
         io::AtomicFile file{path_of("report.json")};
         write_report(head, file);

@@ -1,70 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/slab.h"
 
-#include "slabhull/core/error.h"
 #include "slabhull/slab/tangling.h"
 
-#include "patch_motions.h"
-
-#include <fmt/format.h>
-
 namespace slabhull {
-
-namespace {
-
-PatchNumber number_of(const PatchList& patches, const std::string& name, const char* table) {
-    const PatchNumber number = patch_number(patches, name);
-    if (number == 0) {
-        std::string known;
-        for (const Patch& patch : patches) {
-            known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", patch.name);
-        }
-        throw UsageError(
-            fmt::format("[{}.{}]: the domain has no patch \"{}\"; it has {}", table, name, name, known));
-    }
-    return number;
-}
-
-} // namespace
-
-CapOptions cap_options(const Case& the_case) {
-    CapOptions options;
-    options.grading = {the_case.cap_growth, the_case.cap_size};
-    options.radius_edge = the_case.cap_quality;
-    options.curve_order = the_case.cap_curve_order;
-    return options;
-}
-
-template<int D>
-SlabSettings<D> settings_of(const Case& the_case, const Surface<D>& start) {
-    SlabSettings<D> settings;
-    settings.motion_start = the_case.start;
-    settings.trajectory = the_case.trajectory;
-    settings.side = {the_case.split, the_case.diagonals};
-    settings.cap = cap_options(the_case);
-    for (const auto& [patch, spec] : the_case.motions) {
-        const PatchNumber number = number_of(start.patches, patch, "motion");
-        try {
-            settings.motions[number].motion = motion_of<D>(spec, the_case);
-        } catch (const UsageError& error) {
-            throw UsageError(fmt::format("[motion.{}]: {}", patch, error.what()));
-        }
-    }
-    for (const auto& [patch, spec] : the_case.projections) {
-        MovingPatch<D>& moving = settings.motions[number_of(start.patches, patch, "project")];
-        if (moving.motion == nullptr) {
-            moving.motion = standing<D>();
-        }
-        moving.surface = projection_of<D>(spec);
-        if (!moving.motion->map(the_case.start, the_case.end)) {
-            throw UsageError(
-                fmt::format("[project.{}]: a projection surface moves with its patch's motion, and a "
-                            "velocity formula does not say how a surface moves",
-                            patch));
-        }
-    }
-    return settings;
-}
 
 template<int D>
 Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double> times,
@@ -87,8 +26,6 @@ Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double
     return slab;
 }
 
-template SlabSettings<2> settings_of<2>(const Case&, const Surface<2>&);
-template SlabSettings<3> settings_of<3>(const Case&, const Surface<3>&);
 template Slab<2> build_slab<2>(const SpatialMesh<2>&, int, std::vector<double>, const SlabSettings<2>&,
                                IdCounter, StageClock&);
 template Slab<3> build_slab<3>(const SpatialMesh<3>&, int, std::vector<double>, const SlabSettings<3>&,

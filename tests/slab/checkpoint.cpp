@@ -90,7 +90,7 @@ TEST_CASE("no damaged checkpoint or cap is read as good", "[checkpoint]") {
     const Folder folder;
     const March<2> march = march_after_a_slab<2>();
     const auto path = save(march.state(), folder.path);
-    const auto damaged = GENERATE_COPY(path, folder.path / "cap.vtu");
+    const auto damaged = folder.path / GENERATE("march.state", "cap.vtu");
     const std::string sound = bytes_of(damaged);
     std::mt19937 random{7};
     for (int k = 0; k < 300; ++k) {

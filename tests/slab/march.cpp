@@ -35,8 +35,9 @@ March<D> coarse_march() {
 template<int D>
 void correct(March<D>& march) {
     MovingPatch<D>& body = march.settings().motions.begin()->second;
-    body.motion = D == 2 ? expansion<D>({}, 0.5, 0) : rotation<D>({}, {}, 1);
-    if constexpr (D == 3) {
+    if constexpr (D == 2) {
+        body.motion = expansion<D>({}, 0.5, 0);
+    } else {
         body.motion = rotation<D>({0, 0, 1}, {}, 1);
     }
 }
@@ -154,11 +155,11 @@ TEST_CASE("vertices where projected patches meet stay on all of their surfaces",
     for (Index k = 1; k <= n; ++k) {
         state.cap.cells.push_back({0, k, k + 1});
         state.cap.neighbors.push_back({no_index, k < n ? k : no_index, k > 1 ? k - 2 : no_index});
-        state.cap.boundary_facets.push_back({k, k + 1});
+        state.cap.boundary_facets.push_back({k + 1, k});
         state.cap.boundary_patch.push_back(1);
     }
-    state.cap.boundary_facets.push_back({0, 1});
-    state.cap.boundary_facets.push_back({n + 1, 0});
+    state.cap.boundary_facets.push_back({1, 0});
+    state.cap.boundary_facets.push_back({0, n + 1});
     state.cap.boundary_patch.insert(state.cap.boundary_patch.end(), {2, 3});
     state.cap.patches = {{1, "arc"}, {2, "below"}, {3, "left"}};
     IdCounter ids{100};

@@ -3,6 +3,7 @@
 
 #include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/case.h"
+#include "slabhull/slab/displacement_match.h"
 #include "slabhull/slab/stage_clock.h"
 #include "slabhull/slab/stitch.h"
 #include "slabhull/slab/sweep.h"
@@ -18,6 +19,7 @@ struct SlabSettings {
     TrajectoryOptions trajectory;
     SideOptions side{D == 3 ? Split::C : Split::centre};
     CapOptions cap;
+    std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move as files of displacements say
 };
 
 /// One slab: its hull, and the cap that the next one starts from.
@@ -32,8 +34,9 @@ struct Slab {
 /// How a case wants its caps meshed.
 CapOptions cap_options(const Case& the_case);
 
-/// The settings that a case gives, for a domain with the given boundary when its motion starts.
-/// Throws UsageError for a motion or projection of a patch that there is not.
+/// The settings that a case gives, for a domain with the given boundary when its motion starts, whose
+/// vertices have the tracks 0, 1 .. in order. Throws UsageError for a motion or projection of a patch that
+/// there is not, UsageError and InputError for what is wrong with the files of motions.
 template<int D>
 SlabSettings<D> settings_of(const Case& the_case, const Surface<D>& start);
 
