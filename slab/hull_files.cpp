@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/hull_files.h"
 
+#include "mesh_soup.h"
 #include "slabhull/core/error.h"
 #include "slabhull/io/files.h"
 #include "slabhull/topology/adjacency.h"
@@ -408,9 +409,8 @@ template<int D>
 MeshArrays<D> mesh_of_soup(const io::Soup& soup) {
     MeshArrays<D> mesh;
     mesh.cells = simplices_of<D>(soup);
-    for (const Point<3>& x : soup.points) {
-        Point<D>& point = mesh.points.emplace_back();
-        std::copy_n(x.begin(), D, point.begin());
+    for (std::size_t v = 0; v < soup.points.size(); ++v) {
+        mesh.points.push_back(point_in_space<D>(soup, v));
     }
     return mesh;
 }

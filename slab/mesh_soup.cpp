@@ -28,24 +28,8 @@ struct UsedPoints {
         for (std::size_t v = 0; v < number.size(); ++v) {
             if (number[v] == 0) {
                 number[v] = static_cast<Index>(points.size());
-                points.push_back(spatial(soup, v));
+                points.push_back(point_in_space<D>(soup, v));
             }
-        }
-    }
-
-private:
-    static Point<D> spatial(const io::Soup& soup, std::size_t v) {
-        const Point<3>& x = soup.points[v];
-        if constexpr (D == 2) {
-            if (x[2] != soup.points[0][2]) {
-                throw InputError(
-                    fmt::format("{}: point {} has z = {}, but a plane mesh (dimension = 2) has one z",
-                                soup.path, soup.point_tag(v), x[2]),
-                    {{"vertex", soup.point_tag(v), ""}});
-            }
-            return {x[0], x[1]};
-        } else {
-            return x;
         }
     }
 };
@@ -253,6 +237,22 @@ SpatialMesh<D> domain_of_soup(const io::Soup& soup, const Listener& listener) {
 }
 
 template<int D>
+Point<D> point_in_space(const io::Soup& soup, std::size_t v) {
+    const Point<3>& x = soup.points[v];
+    if constexpr (D == 2) {
+        if (x[2] != soup.points[0][2]) {
+            throw InputError(
+                fmt::format("{}: point {} has z = {}, but a plane mesh (dimension = 2) has one z", soup.path,
+                            soup.point_tag(v), x[2]),
+                {{"vertex", soup.point_tag(v), ""}});
+        }
+        return {x[0], x[1]};
+    } else {
+        return x;
+    }
+}
+
+template<int D>
 double enclosed_by(const Surface<D>& surface, std::span<const Index> facets) {
     const Point<D>& origin = surface.points[surface.facets[facets.front()][0]];
     double sum = 0;
@@ -271,6 +271,8 @@ template Surface<2> surface_of_soup<2>(const io::Soup&, const Patch&);
 template Surface<3> surface_of_soup<3>(const io::Soup&, const Patch&);
 template SpatialMesh<2> domain_of_soup<2>(const io::Soup&, const Listener&);
 template SpatialMesh<3> domain_of_soup<3>(const io::Soup&, const Listener&);
+template Point<2> point_in_space<2>(const io::Soup&, std::size_t);
+template Point<3> point_in_space<3>(const io::Soup&, std::size_t);
 template double enclosed_by<2>(const Surface<2>&, std::span<const Index>);
 template double enclosed_by<3>(const Surface<3>&, std::span<const Index>);
 

@@ -9,6 +9,10 @@
 
 namespace slabhull {
 
+/// A point of a soup; throws InputError where D = 2 and the soup leaves the plane.
+template<int D>
+Point<D> point_in_space(const io::Soup& soup, std::size_t v);
+
 /// The facets of a soup as one patch; used points only. Throws InputError when it has no facets or, for D =
 /// 2, leaves the plane z = 0.
 template<int D>

@@ -72,7 +72,9 @@ double cayley_menger(const std::array<std::array<double, N>, 4>& p) {
 
 template<int D>
 double reference_measure(const std::array<Point<D + 1>, D + 1>& p) {
-    if constexpr (D == 2) {
+    if constexpr (D == 1) {
+        return distance(p[0], p[1]);
+    } else if constexpr (D == 2) {
         return heron(p);
     } else {
         return cayley_menger(p);
@@ -117,6 +119,7 @@ constexpr double degrees = 180 / 3.14159265358979323846;
 } // namespace
 
 TEST_CASE("the normal is perpendicular, on the positive side, and as long as Heron and Cayley-Menger say") {
+    check_normals<1>();
     check_normals<2>();
     check_normals<3>();
 }

@@ -248,6 +248,14 @@ class Refusals(SliceTest):
         ball, _ = self.build(self.case(SPHERE), out="ball")
         self.refuse(2, ["3D+t", "2D+t"], hull, ball / "slab_0000.vtu", *out)
 
+    def test_a_section_is_no_hull_and_no_plane_mesh(self):
+        out, _ = self.build(self.case(SPHERE))
+        self.slice(out / "slab_0000.vtu", "--time", "0.2", "--out", self.dir / "ball.vtu")
+        self.refuse(3, ["not the hull"], self.dir / "ball.vtu", "--time", "0.2", "--out", self.dir / "a.vtu")
+        result = slabhull("check", self.dir / "ball.vtu")
+        self.assertEqual(result.code, 3)
+        self.assertIn("plane mesh", result.err)
+
     @unittest.skipUnless(HAVE_VTK, "no VTK here")
     def test_a_hull_with_a_missing_cell_has_no_section_there(self):
         import numpy as np

@@ -61,7 +61,8 @@ struct HullArrays {
 template<int D>
 HullArrays<D> hull_of_soup(const io::Soup& soup);
 
-/// The used points and the cells of a spatial mesh, as the file has them.
+/// The points and the cells of a spatial mesh, as the file has them. mesh_of_soup() throws InputError for
+/// triangles that do not lie in a plane z = constant.
 template<int D>
 struct MeshArrays {
     Array<Point<D>> points;
