@@ -190,11 +190,16 @@ private:
         const std::string ball = solid ? "sphere" : "circle";
         const std::string egg = solid ? "ellipsoid" : "ellipse";
         std::map<std::string, Kind> kinds{
-            {ball, Kind::sphere}, {egg, Kind::ellipsoid}, {"plane", Kind::plane}};
+            {ball, Kind::sphere}, {egg, Kind::ellipsoid}, {"plane", Kind::plane}, {"file", Kind::file}};
         if (solid) {
             kinds["cylinder"] = Kind::cylinder;
         }
         spec.kind = table.choice<Kind>("surface", kinds);
+        if (spec.kind == Kind::file) {
+            spec.file = directory_ / table.text("file");
+            table.require_all_known();
+            return spec;
+        }
         spec.centre = table.numbers(spec.kind == Kind::plane ? "point" : "centre", case_.dimension);
         switch (spec.kind) {
         case Kind::sphere:
@@ -210,6 +215,8 @@ private:
         case Kind::plane:
             spec.direction = table.direction("normal", case_.dimension);
             break;
+        case Kind::file:
+            break; // read above
         }
         table.require_all_known();
         return spec;
