@@ -149,11 +149,16 @@ ProjectionSpec read_projection(KeyTable table, const PatchKeysContext& context) 
     ProjectionSpec spec;
     const std::string ball = solid ? "sphere" : "circle";
     const std::string egg = solid ? "ellipsoid" : "ellipse";
-    std::map<std::string, Kind> kinds{{ball, Kind::sphere}, {egg, Kind::ellipsoid}, {"plane", Kind::plane}};
+    std::map<std::string, Kind> kinds{{ball, Kind::sphere}, {egg, Kind::ellipsoid}, {"plane", Kind::plane}, {"file", Kind::file}};
     if (solid) {
         kinds["cylinder"] = Kind::cylinder;
     }
     spec.kind = table.choice<Kind>("surface", kinds);
+    if (spec.kind == Kind::file) {
+        spec.file = context.directory / table.text("file");
+        table.require_all_known();
+        return spec;
+    }
     spec.centre = table.numbers(spec.kind == Kind::plane ? "point" : "centre", context.dimension);
     switch (spec.kind) {
     case Kind::sphere:
@@ -169,6 +174,8 @@ ProjectionSpec read_projection(KeyTable table, const PatchKeysContext& context) 
     case Kind::plane:
         spec.direction = table.direction("normal", context.dimension);
         break;
+    case Kind::file:
+        break; // read above
     }
     table.require_all_known();
     return spec;

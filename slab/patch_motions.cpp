@@ -3,6 +3,7 @@
 
 #include "motion_tables.h"
 #include "numbers.h"
+#include "projection_file.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -73,6 +74,8 @@ ProjectionSurfacePointer<D> projection_of(const ProjectionSpec& spec) {
             return cylinder_surface(as_point<3>(spec.centre), as_point<3>(spec.direction), spec.radius);
         }
         break;
+    case ProjectionSpec::Kind::file:
+        return surface_from_file<D>(spec.file);
     case ProjectionSpec::Kind::plane:
         break;
     }

@@ -90,12 +90,13 @@ struct MotionSpec {
 };
 
 struct ProjectionSpec {
-    enum class Kind { sphere, ellipsoid, cylinder, plane };
+    enum class Kind { sphere, ellipsoid, cylinder, plane, file };
     Kind kind = Kind::sphere;
     Numbers centre;    ///< a point of the axis for a cylinder, a point of the plane
     Numbers direction; ///< axis of a cylinder, normal of a plane
     Numbers semi_axes; ///< all equal for a sphere or circle
     double radius = 0; ///< of a cylinder
+    std::filesystem::path file;
 };
 
 /// A case as a case file says it (docs/case-file.md), with everything checked that can be without reading
