@@ -54,12 +54,21 @@ std::string series(const Run& run) {
     return run.who + '/' + order + "/threads:" + std::to_string(run.threads);
 }
 
+/// Large blocks fresh from the system and back to it. Libraries that PETSc brings along (SuperLU_DIST is one)
+/// forbid this to the whole process when they are loaded, and then freed memory is not used again for our
+/// arrays.
+void let_malloc_map_large_blocks() {
+    ::mallopt(M_MMAP_MAX, 1 << 16);
+    ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
+}
+
 /// Times find() in its own fresh memory, and has the last result checked.
 template<class Find, class Right>
 void measure(benchmark::State& state, const Run& run, const Find& find, const Right& right) {
     const Soup& tets = soup(run.divisions, run.order);
     const auto cells = static_cast<double>(tets.mesh.cells.size());
     set_thread_count(run.threads);
+    let_malloc_map_large_blocks();
     Result result;
     double shortest = 1e300;
     const PeakMemory memory;
@@ -167,10 +176,6 @@ void start_on_equal_terms(char** arguments) {
         ::setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 1);
         ::execv("/proc/self/exe", arguments);
     }
-    // Large blocks fresh from the system and back to it, for all. A library that PETSc brings along forbids
-    // this when it is loaded, for the whole process.
-    ::mallopt(M_MMAP_MAX, 1 << 16);
-    ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
 }
 
 /// Takes --soups=DIR out of the arguments.
