@@ -223,6 +223,11 @@ Adjacency<D> build_adjacency(std::span<const Simplex<D>> cells, std::size_t vert
         }
         defects[begin / buckets_per_piece] = std::move(matcher.defects);
     });
+    std::size_t defect_count = 0;
+    for (const std::vector<FacetDefect<D>>& found : defects) {
+        defect_count += found.size();
+    }
+    result.defects.reserve(defect_count);
     for (std::vector<FacetDefect<D>>& found : defects) {
         std::move(found.begin(), found.end(), std::back_inserter(result.defects));
     }

@@ -15,7 +15,7 @@ struct CapOptions {
     double min_dihedral = 10;   ///< wanted dihedral angle in degrees (D = 3)
     double min_angle = 20;      ///< wanted angle in degrees (D = 2)
     /// Interior points and cells along a space-filling curve, not as the mesher leaves them (D = 3; for D = 2
-    /// always): adjacency and checks run up to three times faster on such a mesh.
+    /// always): walks and checks run about twice as fast on such a mesh.
     bool curve_order = true;
 };
 
