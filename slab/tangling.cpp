@@ -7,9 +7,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace slabhull {
 
@@ -31,50 +35,72 @@ std::optional<GeometryError> fault_of(const Surface<D>& surface, double time) {
     }
 }
 
-/// Crossing facets of two patches, told by the first of them and those that it crosses.
+/// Crossing facets of two patches, told by the first of them and those that it crosses; or the facets of a
+/// patch that have collapsed, as partners of the first.
 template<int D>
-struct PatchCrossing {
+struct PatchFault {
     Index facet;
     std::vector<Index> partners;
     Point<D> near;
 };
 
+/// The patch of lower number, the other one (or the same), and whether it is about collapsed facets.
+using FaultKey = std::tuple<PatchNumber, PatchNumber, bool>;
+
 template<int D>
-std::map<std::pair<PatchNumber, PatchNumber>, PatchCrossing<D>>
-crossings_by_patches(const Surface<D>& surface) {
-    std::map<std::pair<PatchNumber, PatchNumber>, PatchCrossing<D>> found;
-    for (const Crossing<D>& crossing : find_crossings(surface, most_crossings)) {
-        const std::pair patches{surface.patch[crossing.first], surface.patch[crossing.second]};
-        auto& of_pair =
-            found.try_emplace(patches, PatchCrossing<D>{crossing.first, {}, crossing.near}).first->second;
-        if (of_pair.facet == crossing.first && crossing.first != crossing.second) {
-            of_pair.partners.push_back(crossing.second);
+std::map<FaultKey, PatchFault<D>> faults_by_patches(const Surface<D>& surface) {
+    std::map<FaultKey, PatchFault<D>> found;
+    for (auto [first, second, near] : find_crossings(surface, most_crossings)) {
+        if (surface.patch[second] < surface.patch[first]) {
+            std::swap(first, second);
+        }
+        const bool collapsed = first == second;
+        const FaultKey key{surface.patch[first], surface.patch[second], collapsed};
+        const auto [fault, fresh] = found.try_emplace(key, PatchFault<D>{first, {}, near});
+        if (collapsed ? !fresh : fault->second.facet == first) {
+            fault->second.partners.push_back(second);
         }
     }
     return found;
 }
 
+std::string in_words(std::vector<Index> facets) {
+    const bool more = facets.size() > most_partners;
+    facets.resize(std::min(facets.size(), most_partners));
+    return fmt::format("{}{}", fmt::join(facets, ", "), more ? " ..." : "");
+}
+
+/// "patch rotor collapses at t = 0.5 near (1, 0, 2), facets 3, 17"
+template<int D>
+std::string collapse_in_words(const std::string& patch, const PatchFault<D>& fault, double time) {
+    std::vector<Index> facets{fault.facet};
+    facets.insert(facets.end(), fault.partners.begin(), fault.partners.end());
+    return fmt::format("patch {} collapses at t = {:.9g} near ({:.6g}), facet{} {}", patch, time,
+                       fmt::join(fault.near, ", "), facets.size() > 1 ? "s" : "", in_words(facets));
+}
+
 /// "patches rotor and casing cross at t = 0.4183 near (1, 0, 2), facets 812 and 90, 14"
 template<int D>
+std::string crossing_in_words(const std::string& first, const std::string& second, const PatchFault<D>& fault,
+                              double time) {
+    const std::string who = first == second ? fmt::format("patch {} crosses itself", first)
+                                            : fmt::format("patches {} and {} cross", first, second);
+    return fmt::format("{} at t = {:.9g} near ({:.6g}), facets {} and {}", who, time,
+                       fmt::join(fault.near, ", "), fault.facet, in_words(fault.partners));
+}
+
+/// A line for each pair of patches; empty when nothing crosses.
+template<int D>
 std::string crossings_in_words(const Surface<D>& surface, double time) {
-    std::string text;
-    for (auto& [patches, crossing] : crossings_by_patches(surface)) {
-        const std::string first = patch_name(surface.patches, patches.first);
-        const std::string second = patch_name(surface.patches, patches.second);
-        const std::string who = first == second ? fmt::format("patch {}", first)
-                                                : fmt::format("patches {} and {}", first, second);
-        if (crossing.partners.empty()) {
-            text += fmt::format("{} collapses at t = {:.9g} near ({:.6g}), facet {}\n", who, time,
-                                fmt::join(crossing.near, ", "), crossing.facet);
-            continue;
-        }
-        const bool more = crossing.partners.size() > most_partners;
-        crossing.partners.resize(std::min(crossing.partners.size(), most_partners));
-        text += fmt::format("{} cross{} at t = {:.9g} near ({:.6g}), facets {} and {}{}\n", who,
-                            first == second ? "es itself" : "", time, fmt::join(crossing.near, ", "),
-                            crossing.facet, fmt::join(crossing.partners, ", "), more ? " ..." : "");
+    std::vector<std::string> lines;
+    for (const auto& [key, fault] : faults_by_patches(surface)) {
+        const auto [first, second, collapsed] = key;
+        const std::string name = patch_name(surface.patches, first);
+        lines.push_back(collapsed
+                            ? collapse_in_words(name, fault, time)
+                            : crossing_in_words(name, patch_name(surface.patches, second), fault, time));
     }
-    return text;
+    return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 /// Brackets the time of tangling between a good level and a bad one.
@@ -97,8 +123,8 @@ public:
             fmt::format(
                 "{}\nThe boundary is good until t = {:.9g}, {:.4g} % of the slab from {:.9g} to {:.9g}: "
                 "end the slab there ([time] adapt = true does), or change the motion.",
-                crossings.empty() ? fault_.what() : crossings.substr(0, crossings.size() - 1), good_,
-                100 * (good_ - begin) / duration, begin, sweep_.times.back()),
+                crossings.empty() ? fault_.what() : crossings, good_, 100 * (good_ - begin) / duration, begin,
+                sweep_.times.back()),
             fault_.entities, good_, bad_);
     }
 
