@@ -149,7 +149,8 @@ ProjectionSpec read_projection(KeyTable table, const PatchKeysContext& context) 
     ProjectionSpec spec;
     const std::string ball = solid ? "sphere" : "circle";
     const std::string egg = solid ? "ellipsoid" : "ellipse";
-    std::map<std::string, Kind> kinds{{ball, Kind::sphere}, {egg, Kind::ellipsoid}, {"plane", Kind::plane}, {"file", Kind::file}};
+    std::map<std::string, Kind> kinds{
+        {ball, Kind::sphere}, {egg, Kind::ellipsoid}, {"plane", Kind::plane}, {"file", Kind::file}};
     if (solid) {
         kinds["cylinder"] = Kind::cylinder;
     }

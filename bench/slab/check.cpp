@@ -3,8 +3,8 @@
 // ellipsoid from 10^5 to 10^7 tetrahedra, on all threads. Before its time counts, the check must find nothing
 // on the hull, and something on the same hull with two vertices of a cell exchanged.
 #include "slabhull/slab/check.h"
-#include "extra_memory.h"
-#include "growth.h"
+#include "../growth.h"
+#include "../memory.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/stopwatch.h"
 #include "slabhull/slab/initial.h"
@@ -47,11 +47,11 @@ void check(benchmark::State& state) {
     const auto tets = static_cast<double>(hull.cells.size());
     double extra = 0;
     for (auto run : state) {
-        const bench::ExtraMemory memory;
+        const bench::PeakMemory memory;
         const Stopwatch watch;
         benchmark::DoNotOptimize(check_hull<3>(columns_of(hull)));
         growth.add(tets, watch.seconds());
-        extra = memory.peak();
+        extra = memory.more();
     }
     state.counters["tets"] = tets;
     state.counters["threads"] = thread_count();

@@ -176,8 +176,8 @@ Hull<D> built(const Case& the_case) {
     IdCounter ids;
     StageClock clock;
     const auto initial = initial_cap<D>(the_case, ids, {}, clock);
-    return build_slab<D>(initial, 0, the_case.level_times(0), settings_of<D>(the_case, initial.patches), ids,
-                         clock)
+    return build_slab<D>(initial, 0, the_case.level_times(0), settings_of<D>(the_case, boundary_of(initial)),
+                         ids, clock)
         .hull;
 }
 
