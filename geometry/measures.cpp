@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace slabhull {
@@ -183,16 +184,19 @@ class SolidSums {
 public:
     void add(double measure, const CosineRange& range) {
         measure_.add(measure);
+        smallest_ = std::min(smallest_, measure);
         cosines_.add(range);
     }
     void add(const SolidSums& other) {
         measure_.add(other.measure_);
+        smallest_ = std::min(smallest_, other.smallest_);
         cosines_.add(other.cosines_);
     }
-    SolidMeasures value() const { return {measure_.value(), cosines_.angles()}; }
+    SolidMeasures value() const { return {measure_.value(), smallest_, cosines_.angles()}; }
 
 private:
     Sum measure_;
+    double smallest_ = std::numeric_limits<double>::infinity();
     CosineRange cosines_;
 };
 

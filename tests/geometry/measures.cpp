@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 
 using namespace slabhull;
@@ -279,4 +280,11 @@ TEST_CASE("compensation keeps small simplices that stand beside huge ones") {
         cells.push_back({3, 4, 5});
     }
     CHECK(measure_solid<2>(points, cells).measure == 1e16 + 1000);
+}
+
+TEST_CASE("the smallest signed measure is that of the one inverted simplex") {
+    const Array<Point<2>> points{{0, 0}, {4, 0}, {0, 1}, {2, 0}};
+    CHECK(measure_solid<2>(points, Array<Simplex<2>>{{0, 1, 2}, {0, 3, 2}}).smallest == 1);
+    CHECK(measure_solid<2>(points, Array<Simplex<2>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 2}}).smallest == -1);
+    CHECK(measure_solid<2>(points, Array<Simplex<2>>{}).smallest == std::numeric_limits<double>::infinity());
 }

@@ -61,6 +61,7 @@ std::vector<Measures<D>> measure_groups(std::span<const Point<D + 1>> points,
 /// Sums over D-simplices in R^D.
 struct SolidMeasures {
     double measure = 0;        ///< sum of the signed measures
+    double smallest = 0;       ///< signed measure of a simplex; infinite when there are none
     AngleRange angles{180, 0}; ///< over all simplices, in degrees
 };
 template<int D>
