@@ -222,6 +222,13 @@ private:
                 table.fail("quality", "a radius-edge bound of at least 1");
             }
         }
+        if (table.has("reuse")) {
+            case_.cap_reuse =
+                table.choice<CapReuse>("reuse", {{"none", CapReuse::none}, {"move", CapReuse::move}});
+        }
+        if (table.has("reuse_angle")) {
+            case_.cap_reuse_angle = table.positive("reuse_angle");
+        }
         if (table.has("order")) {
             case_.cap_curve_order = table.choice<bool>("order", {{"mesher", false}, {"curve", true}});
         }

@@ -51,6 +51,8 @@ Json settings_as_json(const Case& the_case) {
             {"cap_size", std::isfinite(the_case.cap_size) ? Json(the_case.cap_size) : Json()},
             {"cap_growth", the_case.cap_growth},
             {"cap_quality", the_case.cap_quality},
+            {"cap_reuse", the_case.cap_reuse == CapReuse::move ? "move" : "none"},
+            {"cap_reuse_angle", the_case.cap_reuse_angle},
             {"cap_order", the_case.cap_curve_order ? "curve" : "mesher"}};
 }
 
@@ -261,6 +263,10 @@ private:
         for (const auto& [patch, moved] : slab.projected) {
             json["projection"][patch_name(slab.hull.patches, patch)] = {{"largest", moved.largest},
                                                                         {"mean", moved.mean}};
+        }
+        json["cap"] = {{"made", slab.cap_moved ? "moved" : "meshed"}};
+        if (slab.moved_angle) {
+            json["cap"]["angle_when_moved"] = *slab.moved_angle;
         }
         json["seconds"] = seconds_as_json(clock);
         json["peak_memory"] = {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};

@@ -37,6 +37,8 @@ public:
         settings_.trajectory = case_.trajectory;
         settings_.side = {case_.split, case_.diagonals};
         settings_.cap = cap_options(case_);
+        settings_.reuse = case_.cap_reuse;
+        settings_.reuse_angle = case_.cap_reuse_angle;
         for (const auto& [patch, spec] : case_.motions) {
             const PatchNumber number = number_of(start_.patches, patch, "motion");
             try {

@@ -1,9 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/slab.h"
 
+#include "cap_reuse.h"
 #include "slabhull/slab/tangling.h"
 
+#include <utility>
+
 namespace slabhull {
+
+namespace {
+
+/// The terminating cap: moved where that is wanted and good enough, else meshed.
+template<int D>
+CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SlabSettings<D>& settings,
+                    Slab<D>& slab, StageClock& clock) {
+    if (settings.reuse == CapReuse::move) {
+        ReusedCap<D> reused = reuse_cap<D>(initial, sweep, settings.reuse_angle);
+        slab.moved_angle = reused.smallest_angle;
+        slab.cap_moved = reused.good();
+        clock.book("cap moving");
+        if (reused.good()) {
+            return std::move(reused.mesh);
+        }
+    }
+    CapMesh<D> mesh = mesh_cap<D>(sweep.at(sweep.layers()), settings.cap);
+    clock.book("cap meshing");
+    return mesh;
+}
+
+} // namespace
 
 template<int D>
 Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double> times,
@@ -14,8 +39,7 @@ Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double
     clock.book("trajectories");
     require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
     clock.book("boundary check");
-    CapMesh<D> mesh = mesh_cap<D>(sweep.at(sweep.layers()), settings.cap);
-    clock.book("cap meshing");
+    CapMesh<D> mesh = make_cap<D>(initial, sweep, settings, slab, clock);
     IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
     slab.terminating = terminating_cap<D>(initial, sweep, std::move(mesh), ids);
     slab.hull = stitch<D>(initial, sweep, slab.terminating, settings.side, side_ids);

@@ -106,6 +106,55 @@ TEMPLATE_TEST_CASE_SIG(
     }
 }
 
+TEMPLATE_TEST_CASE_SIG("a moved cap keeps its cells, and is meshed anew when its angles become too small",
+                       "[march]", ((int D), D), 2, 3) {
+    March<D> march = coarse_march<D>();
+    march.settings().reuse = CapReuse::move;
+    march.settings().reuse_angle = 1;
+    const SpatialMesh<D> before = march.state().cap;
+    Slab<D> near = march.propose({0, 0.02});
+    CHECK(near.cap_moved);
+    CHECK(near.moved_angle.value() > 1);
+    CHECK(near.terminating.cells.size() == before.cells.size());
+    CHECK(near.terminating.points.size() == before.points.size());
+    CHECK(near.terminating.vertex_ids != before.vertex_ids);
+    CHECK(check_hull<D>(columns_of(near.hull)).clean());
+    CHECK(same_mesh(near.terminating, march.propose({0, 0.02}).terminating));
+    march.accept(std::move(near));
+
+    march.settings().reuse_angle = 59.9; // more than any mesh has
+    const Slab<D> anew = march.propose({0.02, 0.04});
+    CHECK_FALSE(anew.cap_moved);
+    CHECK(anew.moved_angle.value() < 59.9);
+    CHECK(check_hull<D>(columns_of(anew.hull)).clean());
+    march.settings().reuse = CapReuse::none;
+    CHECK(same_mesh(anew.terminating, march.propose({0.02, 0.04}).terminating));
+}
+
+TEST_CASE("a cap whose inner vertices come before its boundary's is moved, too", "[march]") {
+    March<2> sorted = coarse_march<2>();
+    SpatialMesh<2> cap = sorted.state().cap; // all vertices in the opposite order
+    const auto last = static_cast<Index>(cap.points.size() - 1);
+    const auto turn = [last](auto& cells) {
+        for (auto& cell : cells) {
+            for (Index& v : cell) {
+                v = last - v;
+            }
+        }
+    };
+    turn(cap.cells);
+    turn(cap.boundary_facets);
+    std::reverse(cap.points.begin(), cap.points.end());
+    std::reverse(cap.vertex_ids.begin(), cap.vertex_ids.end());
+    std::reverse(cap.track_ids.begin(), cap.track_ids.end());
+    SlabSettings<2> settings = sorted.settings();
+    settings.reuse = CapReuse::move;
+    const March<2> march{march_from<2>(cap, 0, sorted.state().ids), settings};
+    const Slab<2> slab = march.propose({0, 0.1});
+    CHECK(slab.cap_moved);
+    CHECK(check_hull<2>(columns_of(slab.hull)).clean());
+}
+
 TEST_CASE("a slab that was not proposed from here is not accepted", "[march]") {
     March<2> march = coarse_march<2>();
     Slab<2> first = march.propose({0, 0.1});

@@ -63,6 +63,12 @@ struct DisplacementSpec {
     TimeInterpolation interpolation = TimeInterpolation::cubic;
 };
 
+/// Whether a terminating cap may be the initial one with its vertices moved.
+enum class CapReuse { none, move };
+
+/// A moved cap with a smaller angle than this is meshed anew, in degrees. TetGen leaves some 7 degrees.
+inline constexpr double default_reuse_angle = 5;
+
 struct MotionSpec {
     enum class Kind {
         rotation,
@@ -126,6 +132,8 @@ struct Case {
     double cap_growth = 0.3;
     double cap_quality = 1.414;
     bool cap_curve_order = true; ///< `cap.order = "curve"`
+    CapReuse cap_reuse = CapReuse::none;
+    double cap_reuse_angle = default_reuse_angle; ///< degrees
 
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};

@@ -19,6 +19,8 @@ struct SlabSettings {
     TrajectoryOptions trajectory;
     SideOptions side{D == 3 ? Split::C : Split::centre};
     CapOptions cap;
+    CapReuse reuse = CapReuse::none;
+    double reuse_angle = default_reuse_angle;
     std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move as files of displacements say
 };
 
@@ -28,7 +30,9 @@ struct Slab {
     Hull<D> hull;
     SpatialMesh<D> terminating;
     std::map<PatchNumber, ProjectionReport> projected;
-    IdCounter next_ids; ///< what the next slab counts from
+    bool cap_moved = false; ///< the terminating cap is the initial one, moved; else meshed anew ...
+    std::optional<double> moved_angle; ///< ... where tried, the smallest angle (degrees) that moving gave
+    IdCounter next_ids;                ///< what the next slab counts from
 };
 
 /// How a case wants its caps meshed.

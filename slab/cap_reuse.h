@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/slab/sweep.h"
+
+namespace slabhull {
+
+/// A terminating cap made by moving the initial one: same cells, inner vertices led by the boundary.
+template<int D>
+struct ReusedCap {
+    CapMesh<D> mesh; ///< swept vertices first, as a mesher gives them; empty when it is not good enough
+    double smallest_angle = 0; ///< degrees; 0 when a cell is inverted
+
+    bool good() const { return !mesh.cells.empty(); }
+};
+
+/// `angle` is the least that its smallest angle must have. Cost: that of move_cap().
+template<int D>
+ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle);
+
+} // namespace slabhull
