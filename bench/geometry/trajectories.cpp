@@ -75,8 +75,7 @@ SpatialMesh<3> sheet(int divisions, IdCounter& ids) {
     return cap;
 }
 
-PatchMotions<3> turning() {
-    const auto motion = rotation<3>({0, 0, 1}, {}, rate);
+PatchMotions<3> turning(const MotionPointer<3>& motion) {
     return {{1, {motion, ellipsoid_surface<3>({}, inner_axes)}},
             {2, {motion, ellipsoid_surface<3>({}, scaled(inner_axes))}}};
 }
@@ -99,7 +98,7 @@ double processor_seconds() {
 }
 
 /// Args: divisions of the ellipsoids, layers.
-void trajectories(benchmark::State& state) {
+void trajectories(benchmark::State& state, const MotionPointer<3>& motion, bool project) {
     IdCounter first_ids;
     const SpatialMesh<3> initial = sheet(static_cast<int>(state.range(0)), first_ids);
     const auto layers = static_cast<std::size_t>(state.range(1));
@@ -107,7 +106,10 @@ void trajectories(benchmark::State& state) {
     for (std::size_t level = 0; level <= layers; ++level) {
         times.push_back(0.5 * static_cast<double>(level) / static_cast<double>(layers));
     }
-    const PatchMotions<3> motions = turning();
+    PatchMotions<3> motions = turning(motion);
+    if (!project) { // a formula has no closed form to place surfaces by
+        motions[1].surface = motions[2].surface = nullptr;
+    }
     double moving = 0, boundary = 0, rest = 0;
     for (auto run : state) {
         IdCounter ids = first_ids;
@@ -139,12 +141,18 @@ void trajectories(benchmark::State& state) {
 }
 
 /// From 10^4 to 10^6 boundary vertices.
-BENCHMARK(trajectories)
-    ->ArgNames({"divisions", "layers"})
-    ->ArgsProduct({{22, 71, 224}, {2, 4}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseManualTime()
-    ->Iterations(3);
+void sizes(benchmark::internal::Benchmark* bench) {
+    bench->ArgNames({"divisions", "layers"})
+        ->ArgsProduct({{22, 71, 224}, {2, 4}})
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime()
+        ->Iterations(1);
+}
+BENCHMARK_CAPTURE(trajectories, rotation_projected, rotation<3>({0, 0, 1}, {}, rate), true)->Apply(sizes);
+BENCHMARK_CAPTURE(trajectories, formula,
+                  formula_velocity<3>({"-w*y", "w*x", "0"}, std::map<std::string, double>{{"w", rate}}),
+                  false)
+    ->Apply(sizes);
 
 } // namespace
 
