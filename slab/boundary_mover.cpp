@@ -216,13 +216,12 @@ void BoundaryMover<D>::refuse(const MotionGroup& a, const MotionGroup& b, double
         }
     }
     listed.resize(std::min(listed.size(), most_listed));
-    throw GeometryError(
-        fmt::format(
-            "{} and {} share {} vertices that their motions take to different places by t = {}: {}{}. "
-            "Give both the same motion there, part them, or let one of them stretch.",
-            names(a.patches), names(b.patches), apart.size(), to, fmt::join(listed, ", "),
-            apart.size() > most_listed ? " ..." : ""),
-        std::move(apart));
+    const std::string message = fmt::format(
+        "{} and {} share {} vertices that their motions take to different places by t = {}: {}{}. "
+        "Give both the same motion there, part them, or let one of them stretch.",
+        names(a.patches), names(b.patches), apart.size(), to, fmt::join(listed, ", "),
+        apart.size() > most_listed ? " ..." : "");
+    throw GeometryError(message, std::move(apart));
 }
 
 template<int D>
@@ -276,14 +275,13 @@ void BoundaryMover<D>::require_room(const Crease& crease, std::span<const double
     }
     if (!too_far.empty()) {
         const Index v = crease.vertices[worst];
-        throw GeometryError(
-            fmt::format(
-                "projection of {} at t = {:.9g} would move {} vertices by more than half of their "
-                "shortest edge, the farthest, vertex {} at ({:.6g}), by {:.4g} with an edge of {:.4g}; "
-                "check that the projection surface is that of the patch, or shorten the layers",
-                names(crease.patches), to, too_far.size(), sweep_.cap_vertex[v], fmt::join(places[v], ", "),
-                moved[worst], room[v]),
-            std::move(too_far));
+        const std::string message = fmt::format(
+            "projection of {} at t = {:.9g} would move {} vertices by more than half of their "
+            "shortest edge, the farthest, vertex {} at ({:.6g}), by {:.4g} with an edge of {:.4g}; "
+            "check that the projection surface is that of the patch, or shorten the layers",
+            names(crease.patches), to, too_far.size(), sweep_.cap_vertex[v], fmt::join(places[v], ", "),
+            moved[worst], room[v]);
+        throw GeometryError(message, std::move(too_far));
     }
 }
 

@@ -189,7 +189,8 @@ TEST_CASE("a vertex that projection would move past its neighbours is refused", 
     auto& body = march.settings().motions.begin()->second;
     body.surface = sphere_surface<2>({0, 0}, 1.3);
     CHECK_THROWS_WITH(march.propose({0, 0.5}), Catch::Contains("shortest edge") &&
-                                                   Catch::Contains("t = 0.5") && Catch::Contains("body"));
+                                                   Catch::Contains("t = 0.5") && Catch::Contains("body") &&
+                                                   !Catch::Contains("move 0 vertices"));
 }
 
 TEST_CASE("vertices where projected patches meet stay on all of their surfaces", "[march]") {

@@ -135,7 +135,7 @@ class Surfaces(ProgramTest):
             case = self.case('dimension = 2\n[initial]\nmesh = "square.msh"\n'
                              f'[motion.left]\nkind = "translation"\nvelocity = {velocity}\n')
             if code:
-                self.refused(case, code, "left", "right", "vert")
+                self.refused(case, code, "left", "right", "share 2 vertices")
             else:
                 self.build(case)
 
