@@ -71,6 +71,10 @@ struct ProjectionSpec {
     double radius = 0; ///< of a cylinder
 };
 
+/// Where the terminating cap of a slab comes from: meshed anew, or the initial one with its vertices moved as
+/// long as its cells stay good (geometry/cap_motion.h).
+enum class CapReuse { none, move };
+
 /// A case as a case file says it (docs/case-file.md), with everything checked that can be without reading
 /// other files.
 struct Case {
@@ -95,6 +99,8 @@ struct Case {
     double cap_growth = 0.3;
     double cap_quality = 1.414;
     bool cap_curve_order = true; ///< `cap.order = "curve"`
+    CapReuse cap_reuse = CapReuse::none;
+    double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
 
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};
