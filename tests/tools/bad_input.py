@@ -60,6 +60,9 @@ class CaseFiles(ProgramTest):
             ("[motion.body]\nkind = \"rotation\"\nrate = 1\n", "motion.body.centre"),
             ("[motion.body]\nkind = \"expansion\"\ncentre = [0, 0]\nrate = -1.5\n", "motion.body.rate"),
             ("[cap]\norder = \"hilbert\"\n", "cap.order"),
+            ("[cap]\nreuse = \"keep\"\n", "cap.reuse"),
+            ("[cap]\nreuse_angle = -1\n", "cap.reuse_angle"),
+            ("[cap]\nreuse_angle = 61\n", "cap.reuse_angle"),
             ("[output]\nformats = [\"xyz\"]\n", "output.formats"),
         ]:
             with self.subTest(text):

@@ -63,11 +63,9 @@ struct DisplacementSpec {
     TimeInterpolation interpolation = TimeInterpolation::cubic;
 };
 
-/// Whether a terminating cap may be the initial one with its vertices moved.
+/// Where the terminating cap of a slab comes from: meshed anew, or the initial one with its vertices moved as
+/// long as its cells stay good (geometry/cap_motion.h).
 enum class CapReuse { none, move };
-
-/// A moved cap with a smaller angle than this is meshed anew, in degrees. TetGen leaves some 7 degrees.
-inline constexpr double default_reuse_angle = 5;
 
 struct MotionSpec {
     enum class Kind {
@@ -133,7 +131,7 @@ struct Case {
     double cap_quality = 1.414;
     bool cap_curve_order = true; ///< `cap.order = "curve"`
     CapReuse cap_reuse = CapReuse::none;
-    double cap_reuse_angle = default_reuse_angle; ///< degrees
+    double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
 
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};

@@ -20,7 +20,7 @@ struct SlabSettings {
     SideOptions side{D == 3 ? Split::C : Split::centre};
     CapOptions cap;
     CapReuse reuse = CapReuse::none;
-    double reuse_angle = default_reuse_angle;
+    double reuse_angle = 5; ///< degrees: a moved cap with a smaller one is meshed anew
     std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move as files of displacements say
 };
 
