@@ -4,9 +4,8 @@
 //     bench_topology_adjacency [--soups=DIR] [Google Benchmark's options]
 #include "slabhull/topology/adjacency.h"
 
-#include "../extra_memory.h"
 #include "../growth.h"
-#include "../huge_pages.h"
+#include "../memory.h"
 #include "../soups.h"
 #include "adjacency_peers.h"
 #include "slabhull/core/parallel.h"
@@ -72,8 +71,7 @@ void measure(benchmark::State& state, const Run& run, const Find& find, const Ri
     let_malloc_map_large_blocks();
     Result result;
     double shortest = 1e300;
-    ::malloc_trim(0); // or what others have freed would serve us, uncounted
-    const ExtraMemory memory;
+    const PeakMemory memory;
     for (auto iteration : state) {
         state.PauseTiming();
         result = Result{};
@@ -82,7 +80,7 @@ void measure(benchmark::State& state, const Run& run, const Find& find, const Ri
         result = find();
         shortest = std::min(shortest, cpu_seconds() - start);
     }
-    state.counters["extra_bytes_per_tet"] = memory.peak() / cells - sizeof(Neighbors<3>);
+    state.counters["extra_bytes_per_tet"] = memory.more() / cells - sizeof(Neighbors<3>);
     state.counters["huge_page_share"] = huge_page_share();
     if (!right(result)) {
         state.SkipWithError("wrong neighbours");
