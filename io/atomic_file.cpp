@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <regex>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -32,6 +32,19 @@ std::filesystem::path temporary_beside(const std::filesystem::path& target) {
     auto name = target.filename();
     name += fmt::format(".{}-{}.part", ::getpid(), count++);
     return target.parent_path() / name;
+}
+
+/// The process in a name that temporary_beside() made, or 0.
+pid_t writer_of(const std::string& name) {
+    const std::size_t dash = name.rfind('-');
+    const std::size_t dot = name.rfind('.', dash);
+    if (!name.ends_with(".part") || dash == std::string::npos || dot == std::string::npos) {
+        return 0;
+    }
+    pid_t process = 0;
+    const char* end = name.data() + dash;
+    const auto [read, error] = std::from_chars(name.data() + dot + 1, end, process);
+    return error == std::errc{} && read == end ? process : 0;
 }
 
 /// A new name outlives a power cut only when its folder is on disk. Some file systems cannot sync folders,
@@ -109,11 +122,8 @@ void AtomicFile::fail(const char* doing) const {
 void remove_stale_parts(const std::filesystem::path& folder) {
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator{folder, ignored}) {
-        const std::string name = entry.path().filename().string();
-        std::smatch parts;
-        static const std::regex temporary{R"(.*\.(\d{1,9})-\d+\.part)"};
-        if (std::regex_match(name, parts, temporary) && ::kill(std::stoi(parts[1]), 0) != 0 &&
-            errno == ESRCH) {
+        const pid_t writer = writer_of(entry.path().filename().string());
+        if (writer > 0 && ::kill(writer, 0) != 0 && errno == ESRCH) {
             std::filesystem::remove(entry.path(), ignored);
         }
     }

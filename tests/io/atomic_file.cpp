@@ -8,6 +8,7 @@
 #include <csignal>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 using namespace slabhull;
 using io::AtomicFile;
@@ -90,6 +91,28 @@ TEST_CASE("A folder without permission is refused by name", "[io]") {
         CHECK_THROWS_WITH(AtomicFile{folder / "locked/a.txt"}, Catch::Contains("Permission denied"));
     }
     ::chmod((folder / "locked").c_str(), 0700);
+}
+
+TEST_CASE("what killed processes left half-written is removed, and nothing else", "[io]") {
+    const scratch::Folder folder;
+    const pid_t ended = ::fork();
+    if (ended == 0) {
+        ::_exit(0);
+    }
+    ::waitpid(ended, nullptr, 0);
+    const std::string stale = "slab_0000.vtu." + std::to_string(ended) + "-3.part";
+    const std::string live = "slab_0000.vtu." + std::to_string(::getpid()) + "-3.part";
+    const std::vector<std::string> kept{live,           "slab_0000.vtu", "mine.part", "a-b.part",
+                                        "x.12y-3.part", ".part",         "-.part"};
+    scratch::put(folder / stale, "half");
+    for (const std::string& name : kept) {
+        scratch::put(folder / name, "whole");
+    }
+    io::remove_stale_parts(folder / "");
+    CHECK_FALSE(std::filesystem::exists(folder / stale));
+    for (const std::string& name : kept) {
+        CHECK(std::filesystem::exists(folder / name));
+    }
 }
 
 TEST_CASE("A symbolic link keeps pointing at the file that is written", "[io]") {
