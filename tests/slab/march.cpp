@@ -49,6 +49,34 @@ bool same_mesh(const SpatialMesh<D>& a, const SpatialMesh<D>& b) {
            a.track_ids == b.track_ids;
 }
 
+constexpr Index quarter_divisions = 8;
+
+/// A quarter disk about its tip, its arc and its two edges being patches.
+MarchState<2> quarter_disk() {
+    MarchState<2> state;
+    constexpr Index n = quarter_divisions;
+    state.cap.points.push_back({0, 0});
+    for (Index k = 0; k <= n; ++k) {
+        const double angle = 1.5707963267948966 * k / n;
+        state.cap.points.push_back({std::cos(angle), std::sin(angle)});
+    }
+    for (Index k = 1; k <= n; ++k) {
+        state.cap.cells.push_back({0, k, k + 1});
+        state.cap.neighbors.push_back({no_index, k < n ? k : no_index, k > 1 ? k - 2 : no_index});
+        state.cap.boundary_facets.push_back({k + 1, k});
+        state.cap.boundary_patch.push_back(1);
+    }
+    state.cap.boundary_facets.push_back({1, 0});
+    state.cap.boundary_facets.push_back({0, n + 1});
+    state.cap.boundary_patch.insert(state.cap.boundary_patch.end(), {2, 3});
+    state.cap.patches = {{1, "arc"}, {2, "below"}, {3, "left"}};
+    for (std::size_t v = 0; v < state.cap.points.size(); ++v) {
+        state.cap.vertex_ids.push_back(static_cast<PersistentId>(v));
+        state.cap.track_ids.push_back(static_cast<TrackId>(v));
+    }
+    return march_from<2>(state.cap, 0, IdCounter{100});
+}
+
 } // namespace
 
 TEMPLATE_TEST_CASE_SIG("a proposal leaves the march as it was, and the same proposal is the same slab",
@@ -194,43 +222,50 @@ TEST_CASE("a vertex that projection would move past its neighbours is refused", 
 }
 
 TEST_CASE("vertices where projected patches meet stay on all of their surfaces", "[march]") {
-    // A quarter disk that turns about its tip: its arc is on a circle, its edges are on lines.
-    MarchState<2> state;
-    constexpr int n = 8;
-    state.cap.points.push_back({0, 0});
-    for (int k = 0; k <= n; ++k) {
-        const double angle = 1.5707963267948966 * k / n;
-        state.cap.points.push_back({std::cos(angle), std::sin(angle)});
-    }
-    for (Index k = 1; k <= n; ++k) {
-        state.cap.cells.push_back({0, k, k + 1});
-        state.cap.neighbors.push_back({no_index, k < n ? k : no_index, k > 1 ? k - 2 : no_index});
-        state.cap.boundary_facets.push_back({k + 1, k});
-        state.cap.boundary_patch.push_back(1);
-    }
-    state.cap.boundary_facets.push_back({1, 0});
-    state.cap.boundary_facets.push_back({0, n + 1});
-    state.cap.boundary_patch.insert(state.cap.boundary_patch.end(), {2, 3});
-    state.cap.patches = {{1, "arc"}, {2, "below"}, {3, "left"}};
-    IdCounter ids{100};
-    for (std::size_t v = 0; v < state.cap.points.size(); ++v) {
-        state.cap.vertex_ids.push_back(static_cast<PersistentId>(v));
-        state.cap.track_ids.push_back(static_cast<TrackId>(v));
-    }
     SlabSettings<2> settings;
     settings.trajectory = {Scheme::euler, 8, 1e-10}; // far off, so that projection has something to do
     const auto turning = rotation<2>({}, {}, 1);
     settings.motions[1] = {turning, sphere_surface<2>({0, 0}, 1)};
     settings.motions[2] = {turning, plane_surface<2>({0, 0}, {0, 1})};
     settings.motions[3] = {turning, plane_surface<2>({0, 0}, {1, 0})};
-    const March<2> march{march_from<2>(state.cap, 0, ids), settings};
+    const March<2> march{quarter_disk(), settings};
     const Slab<2> slab = march.propose({0, 0.5});
     const auto& end = slab.terminating.points;
     CHECK(std::hypot(end[0][0], end[0][1]) < 1e-12);
-    for (const int corner : {1, n + 1}) {
+    for (const Index corner : {Index{1}, quarter_divisions + 1}) {
         const double angle = 0.5 + (corner == 1 ? 0 : 1.5707963267948966);
-        const auto& at = end[static_cast<std::size_t>(corner)];
+        const auto& at = end[corner];
         CHECK(std::hypot(at[0] - std::cos(angle), at[1] - std::sin(angle)) < 1e-12);
     }
     CHECK(slab.projected.at(1).largest > 1e-3);
+}
+
+TEST_CASE("over 10,000 slabs no id is given twice, and each initial cap is the cap before", "[march]") {
+    SlabSettings<2> settings;
+    const auto turning = rotation<2>({}, {}, 1);
+    for (const PatchNumber patch : {1, 2, 3}) {
+        settings.motions[patch].motion = turning;
+    }
+    March<2> march{quarter_disk(), settings};
+    PersistentId highest = march.state().ids.next - 1;
+    for (int k = 0; k < 10'000; ++k) {
+        const double begin = march.state().time;
+        Slab<2> slab = march.propose({begin, begin + 0.01});
+        const SpatialMesh<2>& cap = march.state().cap;
+        const auto fresh = slab.hull.vertex_ids.begin() + static_cast<std::ptrdiff_t>(cap.points.size());
+        std::sort(fresh, slab.hull.vertex_ids.end());
+        const bool kept =
+            std::equal(cap.vertex_ids.begin(), cap.vertex_ids.end(), slab.hull.vertex_ids.begin());
+        const bool unique =
+            std::adjacent_find(fresh, slab.hull.vertex_ids.end()) == slab.hull.vertex_ids.end();
+        const bool placed =
+            std::equal(cap.points.begin(), cap.points.end(), slab.hull.points.begin(),
+                       [](const auto& x, const auto& p) { return x[0] == p[0] && x[1] == p[1]; });
+        if (!kept || !unique || !placed || *fresh <= highest) {
+            FAIL("in slab " << k);
+        }
+        highest = slab.hull.vertex_ids.back();
+        march.accept(std::move(slab));
+    }
+    CHECK(march.state().slab == 10'000);
 }
