@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary_mover.h"
 
+#include "distance.h"
+
 #include "slabhull/core/error.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace slabhull {
 
 namespace {
-
-template<int D>
-double distance(const Point<D>& a, const Point<D>& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < D; ++k) {
-        sum += (a[k] - b[k]) * (a[k] - b[k]);
-    }
-    return std::sqrt(sum);
-}
 
 template<int D>
 double extent_of(std::span<const Point<D>> points) {

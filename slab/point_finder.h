@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "distance.h"
 #include "slabhull/core/index.h"
 #include "slabhull/core/point.h"
 
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace slabhull {
-
-template<int D>
-double distance(const Point<D>& a, const Point<D>& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < D; ++k) {
-        sum += (a[k] - b[k]) * (a[k] - b[k]);
-    }
-    return std::sqrt(sum);
-}
 
 /// Finds those of many points that are close to a place: they are sorted along a direction that is oblique to
 /// anything people draw, so that few share a place on it.
