@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // VTU files in every variant that VTK and meshio write (mesh_samples.py), held against numpy's numbers; and
 // packed data that lie about what they hold.
+#include "io/mesh_samples.h"
 #include "io/scratch.h"
 #include "slabhull/io/files.h"
 
@@ -20,29 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path samples{SLABHULL_MESH_SAMPLES};
-
 std::vector<fs::path> files_in(const std::string& folder) {
-    std::vector<fs::path> files;
-    if (!fs::exists(samples / folder)) {
-        WARN("no mesh samples: VTK and meshio are not installed");
-        return files;
-    }
-    for (const fs::directory_entry& entry : fs::directory_iterator{samples / folder}) {
-        if (entry.path().extension() == ".vtu") {
-            files.push_back(entry.path());
-        }
-    }
-    std::sort(files.begin(), files.end());
-    return files;
+    return mesh_samples::files(folder, ".vtu");
 }
 
 template<class T>
 Array<T> numbers(const std::string& name) {
-    const std::string bytes = scratch::bytes_of(samples / "vtu" / name);
-    Array<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
+    return mesh_samples::numbers<T>("vtu/" + name);
 }
 
 Array<double> flat(const Array<Point<3>>& points) {
@@ -173,7 +158,7 @@ TEST_CASE("The pieces of a file are joined, their cells' vertices shifted", "[io
     if (files.empty()) {
         return;
     }
-    const auto whole = cells_in_whole(io::read_vtu(samples / "vtu/vtk_raw_plain_64_little.vtu"));
+    const auto whole = cells_in_whole(io::read_vtu(mesh_samples::folder / "vtu/vtk_raw_plain_64_little.vtu"));
     const Array<double> expected = numbers<double>("points.f64");
     for (const fs::path& path : files) {
         CAPTURE(path.filename());

@@ -18,11 +18,13 @@ namespace slabhull::io {
 // stood under the final name is untouched. Their memory does not grow with the mesh; the bytes do not depend
 // on the number of threads.
 
-/// MSH 2.2 and 4.1, ASCII and binary (little-endian). Points and straight lines, triangles and tetrahedra;
-/// other elements, and partitioned meshes, are refused by name. Groups: those with a name and those in use.
-/// An element of an entity in several groups gets the first; one that MSH 2.2 repeats for each of its groups
-/// stays repeated. Data: `$NodeData` that give each node a value and `$ElementData` that give one to each
-/// simplex of the top dimension become arrays of doubles; other sections are passed over.
+/// MSH 2.2 and 4.1, ASCII and binary, in either byte order. Points and straight lines, triangles and
+/// tetrahedra; other elements are refused by name. Parameters of nodes are passed over, and so are
+/// partitions: of a partitioned mesh come the elements of the model, each once, with the model's entities.
+/// Groups: those with a name and those in use. An element of an entity in several groups gets the first; one
+/// that MSH 2.2 repeats for each of its groups stays repeated. Data: `$NodeData` that give each node a value
+/// and `$ElementData` that give one to each simplex of the top dimension become arrays of doubles; other
+/// sections are passed over.
 Soup read_msh(const std::filesystem::path& path);
 /// VTU of lines only, triangles only or tetrahedra only, in either byte order; arrays inline or appended,
 /// ASCII, base64 or raw, as they are or packed by zlib or LZ4. Pieces, which must have the same arrays, are
