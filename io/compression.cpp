@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <lz4.h>
+#include <new>
 #include <zlib.h>
 
 namespace slabhull::io {
@@ -27,6 +28,28 @@ bool unpack_lz4(std::string_view packed, char* out, std::size_t size) {
     const int unpacked =
         ::LZ4_decompress_safe(packed.data(), out, static_cast<int>(packed.size()), static_cast<int>(size));
     return unpacked >= 0 && static_cast<std::size_t>(unpacked) == size;
+}
+
+std::string pack_zlib(std::string_view bytes) {
+    constexpr int level = 5; // as VTK has it
+    uLongf size = ::compressBound(bytes.size());
+    std::string packed(size, '\0');
+    const int result = ::compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                                   reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), level);
+    if (result != Z_OK) { // there is room, so only memory can be short
+        throw std::bad_alloc{};
+    }
+    packed.resize(size);
+    return packed;
+}
+
+std::string pack_lz4(std::string_view bytes) {
+    const int room = ::LZ4_compressBound(static_cast<int>(bytes.size()));
+    std::string packed(static_cast<std::size_t>(room), '\0');
+    const int size =
+        ::LZ4_compress_default(bytes.data(), packed.data(), static_cast<int>(bytes.size()), room);
+    packed.resize(static_cast<std::size_t>(size));
+    return packed;
 }
 
 } // namespace
@@ -54,6 +77,12 @@ bool unpack(Compressor compressor, std::string_view packed, char* out, std::size
         std::memcpy(out, packed.data(), size);
     }
     return packed.size() == size;
+}
+
+std::string pack(Compressor compressor, std::string_view bytes) {
+    return compressor == Compressor::zlib  ? pack_zlib(bytes)
+           : compressor == Compressor::lz4 ? pack_lz4(bytes)
+                                           : std::string{bytes};
 }
 
 } // namespace slabhull::io

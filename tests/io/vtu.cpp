@@ -144,10 +144,13 @@ TEST_CASE("Random damage to a VTU file never does more than refuse it", "[io]") 
 
 TEST_CASE("What is written as VTU comes back bit for bit", "[io]") {
     const scratch::Folder folder;
+    const auto encoding =
+        GENERATE(io::VtuEncoding::raw, io::VtuEncoding::zlib, io::VtuEncoding::lz4, io::VtuEncoding::ascii);
     for (const specimens::Grid& grid :
          {specimens::Grid{1, 1}, specimens::Grid{1, 9}, specimens::Grid{2, 1}, specimens::Grid{2, 9},
-          specimens::Grid{3, 1}, specimens::Grid{3, 6}}) {
-        io::write_vtu(folder / "a.vtu", grid.columns());
+          specimens::Grid{3, 1}, specimens::Grid{3, 6}, specimens::Grid{2, 150}}) { // several packed blocks
+        io::write_vtu(folder / "a.vtu", grid.columns(), encoding);
+        CHECK(folder.file_count() == 1);
         const io::Soup soup = io::read_mesh(folder / "a.vtu");
         const auto top = static_cast<std::size_t>(grid.dimension);
         CHECK(soup.points == Array<Point<3>>(grid.points.begin(), grid.points.end()));
@@ -171,9 +174,11 @@ TEST_CASE("What is written as VTU comes back bit for bit", "[io]") {
 TEST_CASE("The bytes of a VTU file do not depend on the number of threads", "[io]") {
     const scratch::Folder folder;
     const specimens::Grid grid{3, 30};
+    const auto encoding =
+        GENERATE(io::VtuEncoding::raw, io::VtuEncoding::zlib, io::VtuEncoding::lz4, io::VtuEncoding::ascii);
     for (const int threads : {1, 2, 5}) {
         set_thread_count(threads);
-        io::write_vtu(folder / fmt::format("{}.vtu", threads), grid.columns());
+        io::write_vtu(folder / fmt::format("{}.vtu", threads), grid.columns(), encoding);
     }
     set_thread_count(0);
     CHECK(scratch::bytes_of(folder / "1.vtu") == scratch::bytes_of(folder / "2.vtu"));

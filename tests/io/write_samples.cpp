@@ -4,6 +4,7 @@
 #include "slabhull/io/files.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 int main(int argument_count, char** arguments) {
     if (argument_count != 2) {
@@ -14,6 +15,13 @@ int main(int argument_count, char** arguments) {
     for (const int dimension : {1, 2, 3}) {
         const specimens::Grid grid{dimension, 7};
         slabhull::io::write_vtu(folder / fmt::format("grid{}.vtu", dimension), grid.columns());
+        using slabhull::io::VtuEncoding;
+        for (const auto& [name, encoding] : {std::pair{"zlib", VtuEncoding::zlib},
+                                             {"lz4", VtuEncoding::lz4},
+                                             {"ascii", VtuEncoding::ascii}}) {
+            const auto path = folder / fmt::format("grid{}_{}.vtu", dimension, name);
+            slabhull::io::write_vtu(path, grid.columns(), encoding);
+        }
         slabhull::io::write_msh(folder / fmt::format("grid{}.msh", dimension), grid.columns());
     }
     return 0;

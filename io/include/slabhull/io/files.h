@@ -53,17 +53,22 @@ CsvTable read_csv(const std::filesystem::path& path);
 /// z, roll_deg, pitch_deg, yaw_deg.
 CsvTable read_motion_table(const std::filesystem::path& path);
 
-/// VTU, appended raw, UInt64 headers, little-endian; connectivity in 32 bits where it fits. Text arrays are
+/// How the arrays of a VTU file are stored: appended raw as they are, or packed by zlib (level 5) or LZ4 in
+/// blocks of 256 KiB; or as text with the shortest digits that give the same number again. Packed arrays wait
+/// for their places in a file without a name in the same folder. VTK reads all, meshio all but LZ4.
+enum class VtuEncoding { raw, zlib, lz4, ascii };
+/// VTU, UInt64 headers, little-endian; connectivity in 32 bits where it fits. Text arrays are
 /// UInt8, each text ended by a zero byte (meshio opens no file with a string array of VTK's own kind);
 /// read_vtu() gives them back.
-void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh);
+void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh,
+               VtuEncoding encoding = VtuEncoding::raw);
 /// MSH 4.1 binary: dense tags from 1, one block of nodes, one of elements per group (groups may share a
 /// number, and then an entity), `$Entities` and `$PhysicalNames`; point data as `$NodeData`, cell data as
 /// `$ElementData` (components > 1 become name_0, name_1 ..). Throws LimitError when data have more rows than
 /// the format's 32 bits count, std::invalid_argument when the groups do not hold all cells in order.
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
 /// The same into a file that is the caller's to commit.
-void write_vtu(AtomicFile& file, const MeshColumns& mesh);
+void write_vtu(AtomicFile& file, const MeshColumns& mesh, VtuEncoding encoding = VtuEncoding::raw);
 void write_msh(AtomicFile& file, const MeshColumns& mesh);
 
 /// A file of a series, and its time.
