@@ -13,7 +13,7 @@ int main(int argument_count, char** arguments) {
     const std::filesystem::path folder{arguments[1]};
     std::filesystem::create_directories(folder);
     for (const int dimension : {1, 2, 3}) {
-        const specimens::Grid grid{dimension, 7};
+        const specimens::Grid grid{dimension, dimension == 2 ? 110 : 7}; // 2: several packed blocks
         slabhull::io::write_vtu(folder / fmt::format("grid{}.vtu", dimension), grid.columns());
         using slabhull::io::VtuEncoding;
         for (const auto& [name, encoding] : {std::pair{"zlib", VtuEncoding::zlib},
