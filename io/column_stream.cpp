@@ -20,6 +20,27 @@ void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, cons
     }
 }
 
+void stream_blocks(std::size_t rows, std::size_t block_rows, std::size_t row_bytes, const RowFill& fill,
+                   const std::function<std::string(std::string_view bytes)>& transform,
+                   const std::function<void(const std::string&)>& take) {
+    constexpr std::size_t at_once = 32;
+    std::vector<std::string> results(at_once);
+    const std::size_t blocks = (rows + block_rows - 1) / block_rows;
+    for (std::size_t first = 0; first < blocks; first += at_once) {
+        const std::size_t count = std::min(blocks - first, at_once);
+        parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::size_t row = (first + i) * block_rows;
+                const std::size_t last = std::min(rows, row + block_rows);
+                Array<char> bytes((last - row) * row_bytes);
+                fill(row, last, bytes.data());
+                results[i] = transform({bytes.data(), bytes.size()});
+            }
+        });
+        std::for_each_n(results.begin(), count, take);
+    }
+}
+
 std::size_t rows_of(const DataColumn& data) {
     return std::visit([](const auto& column) { return column.rows(); }, data.values);
 }

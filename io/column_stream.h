@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstring>
 #include <functional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace slabhull::io {
@@ -18,6 +20,12 @@ using RowFill = std::function<void(std::size_t begin, std::size_t end, char* out
 
 /// Writes rows to the file, large blocks at a time; within a block they are made by several threads.
 void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill);
+
+/// Makes rows in blocks of `block_rows`, of which several threads transform several at a time, and hands what
+/// comes of them to `take` in order.
+void stream_blocks(std::size_t rows, std::size_t block_rows, std::size_t row_bytes, const RowFill& fill,
+                   const std::function<std::string(std::string_view bytes)>& transform,
+                   const std::function<void(const std::string&)>& take);
 
 /// Calls use(row, values) for rows [begin, end) of a column.
 template<class T, class Use>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "byte_order.h"
 #include "slabhull/core/array.h"
 #include "slabhull/core/error.h"
 
@@ -21,7 +22,7 @@ Array<char> read_bytes(const std::filesystem::path& path);
 /// ".msh" for "ROOM.MSH".
 std::string lower_extension(const std::filesystem::path& path);
 
-/// A place in a file that holds text, little-endian binary values, or both by turns. Whatever is asked for
+/// A place in a file that holds text, binary values, or both by turns. Whatever is asked for
 /// beyond the end, or does not look as it should, ends in an InputError with file and line (text) or byte
 /// (binary).
 class FileCursor {
@@ -31,6 +32,8 @@ public:
     /// Whether numbers are read as binary values from now on; words and lines are always text.
     void set_binary(bool binary) { binary_ = binary; }
     bool binary() const { return binary_; }
+    /// Whether binary values are not in the machine's own byte order.
+    void set_swapped(bool swapped) { swapped_ = swapped; }
 
     std::size_t offset() const { return offset_; }
     std::size_t remaining() const { return bytes_.size() - offset_; }
@@ -62,9 +65,7 @@ public:
     /// The next number, always in binary.
     template<class T>
     T raw(const char* what) {
-        T value;
-        std::memcpy(&value, take(sizeof(T), what), sizeof(T));
-        return value;
+        return load<T>(take(sizeof(T), what), swapped_);
     }
     /// The next `size` bytes.
     const char* take(std::size_t size, const char* what);
@@ -84,6 +85,7 @@ private:
     std::string path_;
     std::size_t offset_ = 0;
     bool binary_ = false;
+    bool swapped_ = false;
 };
 
 inline bool is_blank(char c) {
@@ -133,6 +135,9 @@ void FileCursor::numbers(T* out, std::size_t count, const char* what) {
         if (count > 0) {
             plausible(count, sizeof(T), what);
             std::memcpy(out, take(count * sizeof(T), what), count * sizeof(T));
+        }
+        for (std::size_t i = 0; swapped_ && i < count; ++i) {
+            out[i] = load<T>(reinterpret_cast<const char*>(out + i), true);
         }
         return;
     }

@@ -56,16 +56,16 @@ private:
             read_physical_names();
         } else if (name == "$Entities") {
             read_entities();
-        } else if (name == "$Nodes") {
-            read_nodes();
+        } else if (name == "$PartitionedEntities") {
+            read_partitioned_entities();
+        } else if (name == "$Nodes" || name == "$ParametricNodes") {
+            read_nodes(name == "$ParametricNodes");
         } else if (name == "$Elements") {
             read_elements();
         } else if (name == "$NodeData" || name == "$ElementData") {
             read_data(name);
         } else {
-            require(name != "$PartitionedEntities",
-                    "partitioned meshes are not read; save the mesh unpartitioned");
-            skip_section(name);
+            skip_section(name); // $GhostElements, too, which repeats elements of other partitions
         }
         const std::string closing = "$End" + name.substr(1);
         require(in_.word() == closing, closing + " was expected");
@@ -92,8 +92,10 @@ private:
         in_.line();
         in_.set_binary(binary == 1);
         if (in_.binary()) {
-            require(in_.raw<std::int32_t>("the byte order mark") == 1,
-                    "the file has the opposite byte order; save it on a little-endian machine or as ASCII");
+            constexpr std::int32_t swapped_one = 0x01000000;
+            const auto mark = in_.raw<std::int32_t>("the byte order mark");
+            require(mark == 1 || mark == swapped_one, "the byte order mark, a binary 1, was expected");
+            in_.set_swapped(mark == swapped_one);
         }
     }
 
@@ -137,18 +139,40 @@ private:
 
     void read_entities() {
         require(version_ == Version::v4, "$Entities was not expected in MSH 2");
+        read_entity_lists(false);
+    }
+
+    /// The model's entities, cut by the partitions, and the interfaces that this makes.
+    void read_partitioned_entities() {
+        require(version_ == Version::v4, "$PartitionedEntities was not expected in MSH 2");
+        size_value("a count of partitions");
+        const std::size_t ghosts = counted(size_value("a count of ghost entities"), 8, 2, "ghost entities");
+        for (std::size_t i = 0; i < ghosts; ++i) {
+            in_.number<std::int32_t>("a ghost entity's number");
+            in_.number<std::int32_t>("a partition");
+        }
+        read_entity_lists(true);
+    }
+
+    void read_entity_lists(bool partitioned) {
         std::array<std::uint64_t, 4> counts{};
         size_values(counts.data(), 4, "a count of entities");
         for (std::size_t dimension = 0; dimension < 4; ++dimension) {
             const std::size_t count = counted(counts[dimension], 32, 5, "entities");
             for (std::size_t i = 0; i < count; ++i) {
-                read_entity(dimension);
+                read_entity(dimension, partitioned);
             }
         }
     }
 
-    void read_entity(std::size_t dimension) {
+    void read_entity(std::size_t dimension, bool partitioned) {
         const auto tag = in_.number<std::int32_t>("an entity's number");
+        if (partitioned) {
+            const auto parent_dimension = in_.number<std::int32_t>("the dimension of an entity's parent");
+            const auto parent = in_.number<std::int32_t>("the number of an entity's parent");
+            parent_of_[dimension][tag] = {parent_dimension, parent};
+            read_tags("partitions");
+        }
         std::array<double, 6> box{};
         in_.numbers(box.data(), dimension == 0 ? 3 : 6, "an entity's box");
         physical_of_[dimension][tag] = first_positive(read_tags("physical groups"));
@@ -174,10 +198,13 @@ private:
 
     // --- nodes ---
 
-    void read_nodes() {
+    /// With parameters on the model's entities, which are passed over, where `parametric` (MSH 2 only).
+    void read_nodes(bool parametric) {
         require(!nodes_read_, "$Nodes appears twice");
+        require(!parametric || version_ == Version::v2, "$ParametricNodes was not expected in MSH 4");
         const std::size_t start = in_.offset();
-        const std::uint64_t claimed = version_ == Version::v4 ? read_node_blocks() : read_node_list();
+        const std::uint64_t claimed =
+            version_ == Version::v4 ? read_node_blocks() : read_node_list(parametric);
         require(claimed == soup_.points.size(),
                 fmt::format("{} nodes are claimed, {} are there", claimed, soup_.points.size()));
         nodes_ = TagIndex{soup_.point_tags};
@@ -219,7 +246,7 @@ private:
         require_finite(first);
     }
 
-    std::uint64_t read_node_list() {
+    std::uint64_t read_node_list(bool parametric) {
         const auto claimed = in_.parsed<std::uint64_t>("the count of nodes");
         in_.line();
         const std::size_t count = counted(claimed, 28, 4, "nodes");
@@ -229,9 +256,22 @@ private:
             Point<3> x{};
             in_.numbers(x.data(), 3, "node coordinates");
             soup_.points.push_back(x);
+            if (parametric) {
+                pass_parameters();
+            }
             require_finite(i);
         }
         return claimed;
+    }
+
+    /// One parameter on a curve, two on a surface, none elsewhere.
+    void pass_parameters() {
+        const auto dimension = in_.number<std::int32_t>("an entity's dimension");
+        require(dimension >= 0 && dimension <= 3, fmt::format("{} is no dimension", dimension));
+        in_.number<std::int32_t>("an entity's number");
+        std::array<double, 2> parameters{};
+        in_.numbers(parameters.data(), dimension < 3 ? static_cast<std::size_t>(dimension) : 0,
+                    "node parameters");
     }
 
     void reserve_nodes(std::size_t count) {
@@ -302,10 +342,17 @@ private:
         const std::size_t row = dimension + 2;
         const std::size_t count =
             counted(claimed, row * static_cast<std::size_t>(size_width_), row, "elements");
+        const auto parent = parent_of_[dimension].find(entity);
+        const bool is_part = parent != parent_of_[dimension].end();
+        if (is_part && parent->second.dimension != entity_dimension) {
+            SimplexBlock interface; // between partitions, no part of the model
+            read_rows(interface, dimension, count);
+            return;
+        }
         const PatchNumber physical = physical_of(dimension, entity);
         SimplexBlock& block = soup_.simplices[dimension];
         block.physical.resize(block.physical.size() + count, physical);
-        block.entity.resize(block.entity.size() + count, entity);
+        block.entity.resize(block.entity.size() + count, is_part ? parent->second.number : entity);
         read_rows(block, dimension, count);
     }
 
@@ -497,6 +544,11 @@ private:
         }
     }
 
+    struct Parent {
+        std::int32_t dimension;
+        std::int32_t number;
+    };
+
     FileCursor in_;
     Soup soup_;
     Version version_ = Version::unknown;
@@ -508,6 +560,7 @@ private:
     std::unique_ptr<TagIndex> element_of_; ///< of the top dimension, made when data ask for it
     std::array<std::map<PatchNumber, std::string>, 4> names_;
     std::array<std::map<std::int32_t, PatchNumber>, 4> physical_of_; ///< an entity's group
+    std::array<std::map<std::int32_t, Parent>, 4> parent_of_;        ///< the model's entity of a part
 };
 
 } // namespace

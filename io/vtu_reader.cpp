@@ -2,13 +2,16 @@
 // The format is described in "VTK File Formats" (Kitware), section "XML File Formats".
 #include "slabhull/io/files.h"
 
-#include "base64.h"
+#include "byte_order.h"
 #include "file_cursor.h"
 #include "vtk_names.h"
+#include "vtu_payload.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <pugixml.hpp>
 
 namespace slabhull::io {
@@ -38,10 +41,17 @@ Appended find_appended(std::string_view bytes) {
 
 /// An array's values as they stand in the file: bytes, or text.
 struct Stored {
-    std::string_view bytes;
-    Array<char> decoded; ///< owns the bytes where they were base64
+    std::string_view text;
+    Payload payload;
     bool is_text = false;
 };
+
+constexpr std::uint64_t any_count = std::numeric_limits<std::uint64_t>::max();
+
+/// The product, or the largest number where it is larger.
+std::uint64_t times(std::uint64_t a, std::uint64_t b) {
+    return b > 0 && a > any_count / b ? any_count : a * b;
+}
 
 class VtuReader {
 public:
@@ -54,16 +64,14 @@ public:
         parse_xml();
         const pugi::xml_node grid = open_grid();
         for (const pugi::xml_node node : grid.child("FieldData").children()) {
-            add_data(soup_.field_data, node, 0);
+            soup_.field_data.push_back(data_array(node, std::nullopt));
         }
-        const pugi::xml_node piece = grid.child("Piece");
-        if (!piece || piece.next_sibling("Piece")) {
-            fail(grid, "exactly one Piece was expected");
+        for (const pugi::xml_node piece : grid.children("Piece")) {
+            read_piece(piece);
         }
-        read_points(piece);
-        read_cells(piece);
-        read_data(soup_.point_data, piece.child("PointData"), soup_.points.size());
-        read_data(soup_.cell_data, piece.child("CellData"), cells_);
+        if (dimension_ == 0) {
+            fail(grid, "there are no cells");
+        }
         return std::move(soup_);
     }
 
@@ -99,14 +107,33 @@ private:
         if (type != "UnstructuredGrid") {
             fail_at(0, fmt::format("a VTKFile of type UnstructuredGrid was expected, not \"{}\"", type));
         }
-        if (std::string_view{file.attribute("byte_order").as_string("LittleEndian")} != "LittleEndian") {
-            fail(file, "big-endian files are not read; save it in little-endian order");
+        const std::string_view order = file.attribute("byte_order").as_string("LittleEndian");
+        if (order != "LittleEndian" && order != "BigEndian") {
+            fail(file, fmt::format("the byte order \"{}\" is not known", order));
         }
-        if (*file.attribute("compressor").value() != '\0') {
-            fail(file, "compressed files are not read; save it without compression");
+        format_.swapped = (order == "LittleEndian") != (std::endian::native == std::endian::little);
+        const std::string_view word = file.attribute("header_type").as_string("UInt32");
+        if (word != "UInt32" && word != "UInt64") {
+            fail(file, fmt::format("the header type \"{}\" is not known", word));
         }
-        wide_header_ = std::string_view{file.attribute("header_type").value()} == "UInt64";
+        format_.word_bytes = word == "UInt64" ? sizeof(std::uint64_t) : sizeof(std::uint32_t);
+        format_.compressor = compressor_of(file);
         return file.child("UnstructuredGrid");
+    }
+
+    Compressor compressor_of(const pugi::xml_node& file) const {
+        const std::string_view name = file.attribute("compressor").value();
+        if (name == "vtkZLibDataCompressor") {
+            return Compressor::zlib;
+        }
+        if (name == "vtkLZ4DataCompressor") {
+            return Compressor::lz4;
+        }
+        if (!name.empty()) {
+            fail(file,
+                 fmt::format("files compressed by {} are not read; save it with zlib, LZ4 or without", name));
+        }
+        return Compressor::none;
     }
 
     std::uint64_t count_attribute(const pugi::xml_node& node, const char* name) const {
@@ -121,7 +148,8 @@ private:
 
     // --- arrays ---
 
-    Stored stored(const pugi::xml_node& node) const {
+    /// `most` bytes where it is packed.
+    Stored stored(const pugi::xml_node& node, std::uint64_t most) {
         const std::string_view format = node.attribute("format").as_string("ascii");
         if (format == "ascii") {
             return {node.text().get(), {}, true};
@@ -129,7 +157,7 @@ private:
         if (format == "binary") {
             std::string_view text = node.text().get();
             text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-            return base64(node, text);
+            return {{}, payload(node, text, true, most), false};
         }
         if (format != "appended") {
             fail(node, fmt::format("the format \"{}\" is not known", format));
@@ -138,65 +166,53 @@ private:
         if (offset > appended_.data.size()) {
             fail(node, fmt::format("offset {} lies beyond the end of the file", offset));
         }
-        const std::string_view data = appended_.data.substr(offset);
-        return appended_.is_base64 ? base64(node, data) : raw(node, data);
+        return {{}, payload(node, appended_.data.substr(offset), appended_.is_base64, most), false};
     }
 
-    std::size_t header_size() const { return wide_header_ ? sizeof(std::uint64_t) : sizeof(std::uint32_t); }
-
-    /// Number of bytes that the header tells.
-    std::uint64_t byte_count(const char* header) const {
-        std::uint64_t count = 0; // little-endian, so that the shorter one fills its lower half
-        std::memcpy(&count, header, header_size());
-        return count;
-    }
-
-    Stored raw(const pugi::xml_node& node, std::string_view data) const {
-        if (data.size() < header_size() || byte_count(data.data()) > data.size() - header_size()) {
-            fail(node, "its data reach beyond the end of the file");
+    /// Arrays that share bytes could make a small file a large mesh.
+    Payload payload(const pugi::xml_node& node, std::string_view data, bool is_base64, std::uint64_t most) {
+        try {
+            Payload result = read_payload(format_, data, is_base64, most);
+            consumed_ += result.consumed;
+            if (consumed_ > bytes_.size()) {
+                fail(node, "its data overlap those of other arrays");
+            }
+            return result;
+        } catch (const PayloadError& problem) {
+            fail(node, problem.what());
         }
-        return {data.substr(header_size(), byte_count(data.data())), {}, false};
     }
 
-    Stored base64(const pugi::xml_node& node, std::string_view text) const {
-        const auto header = decode_base64(text, header_size());
-        const std::uint64_t count = header ? byte_count(header->data()) : 0;
-        auto decoded =
-            header && count < text.size() ? decode_base64(text, header_size() + count) : std::nullopt;
-        if (!decoded) {
-            fail(node, "its base64 data are cut short or damaged");
-        }
-        Stored result;
-        result.decoded = std::move(*decoded);
-        result.bytes = std::string_view{result.decoded.data(), result.decoded.size()}.substr(header_size());
-        return result;
-    }
-
-    /// All values as T, each by convert(value) from the type in the file.
+    /// All values as T, each by convert(value) from the type in the file. Packed arrays that hold more than
+    /// `count` are refused.
     template<class T, class Convert>
-    Array<T> values(const pugi::xml_node& node, const Convert& convert) const {
+    Array<T> values(const pugi::xml_node& node, std::uint64_t count, const Convert& convert) {
         Array<T> result;
-        const Stored source = stored(node);
         const bool known = with_vtk_type(node.attribute("type").value(), [&](auto zero) {
             using S = decltype(zero);
+            const Stored source = stored(node, times(count, sizeof(S)));
             if (source.is_text) {
-                parse_text<S>(node, source.bytes, result, convert);
-                return;
-            }
-            if (source.bytes.size() % sizeof(S) != 0) {
-                fail(node, fmt::format("{} bytes are no whole number of values", source.bytes.size()));
-            }
-            result.resize(source.bytes.size() / sizeof(S));
-            for (std::size_t i = 0; i < result.size(); ++i) {
-                S value;
-                std::memcpy(&value, source.bytes.data() + i * sizeof(S), sizeof(S));
-                result[i] = convert(value);
+                parse_text<S>(node, source.text, result, convert);
+            } else {
+                unpack_values<S>(node, source.payload.bytes, result, convert);
             }
         });
         if (!known) {
             fail(node, fmt::format("the type \"{}\" is not read", node.attribute("type").value()));
         }
         return result;
+    }
+
+    template<class S, class T, class Convert>
+    void unpack_values(const pugi::xml_node& node, std::string_view bytes, Array<T>& result,
+                       const Convert& convert) const {
+        if (bytes.size() % sizeof(S) != 0) {
+            fail(node, fmt::format("{} bytes are no whole number of values", bytes.size()));
+        }
+        result.resize(bytes.size() / sizeof(S));
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            result[i] = convert(load<S>(bytes.data() + i * sizeof(S), format_.swapped));
+        }
     }
 
     template<class S, class T, class Convert>
@@ -217,33 +233,47 @@ private:
     }
 
     template<class T>
-    Array<T> plain(const pugi::xml_node& node) const {
-        return values<T>(node, [](auto value) { return static_cast<T>(value); });
+    Array<T> plain(const pugi::xml_node& node, std::uint64_t count) {
+        return values<T>(node, count, [](auto value) { return static_cast<T>(value); });
     }
 
     // --- mesh ---
 
-    void read_points(const pugi::xml_node& piece) {
+    /// Behind what the pieces before have given.
+    void read_piece(const pugi::xml_node& piece) {
+        const std::uint64_t points = count_attribute(piece, "NumberOfPoints");
+        const std::uint64_t cells = count_attribute(piece, "NumberOfCells");
+        if (points == 0 && cells == 0) { // as parallel writers leave them, perhaps without arrays
+            return;
+        }
+        first_point_ = soup_.points.size();
+        read_points(piece, points);
+        read_cells(piece, cells);
+        read_data(soup_.point_data, piece, "PointData", points);
+        read_data(soup_.cell_data, piece, "CellData", cells);
+        is_first_piece_ = false;
+    }
+
+    void read_points(const pugi::xml_node& piece, std::uint64_t count) {
         const pugi::xml_node node = piece.child("Points").child("DataArray");
-        const std::uint64_t count = count_attribute(piece, "NumberOfPoints");
-        const Array<double> x = plain<double>(node);
+        const Array<double> x = plain<double>(node, times(3, count));
         if (x.size() % 3 != 0 || x.size() / 3 != count) {
             fail(node, fmt::format("{} values are no {} points of 3 coordinates", x.size(), count));
         }
-        checked_index(x.size() / 3, "points");
+        checked_index(first_point_ + count, "points");
         const auto bad =
             std::find_if_not(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
         if (bad != x.end()) {
             fail(node,
                  fmt::format("point {} has a coordinate that is not a finite number", (bad - x.begin()) / 3));
         }
-        soup_.points.resize(x.size() / 3);
+        soup_.points.resize(first_point_ + count);
         if (!x.empty()) {
-            std::memcpy(soup_.points.data(), x.data(), x.size() * sizeof(double));
+            std::memcpy(soup_.points.data() + first_point_, x.data(), x.size() * sizeof(double));
         }
     }
 
-    void read_cells(const pugi::xml_node& piece) {
+    void read_cells(const pugi::xml_node& piece, std::uint64_t count) {
         const pugi::xml_node section = piece.child("Cells");
         const auto array = [&](const char* name) {
             const pugi::xml_node node = section.find_child_by_attribute("DataArray", "Name", name);
@@ -252,39 +282,44 @@ private:
             }
             return node;
         };
-        const std::size_t dimension = cell_dimension(piece, array("types"));
-        check_offsets(array("offsets"), dimension + 1);
-        read_connectivity(array("connectivity"), dimension);
+        check_types(array("types"), count);
+        const std::size_t corners = dimension_ + 1;
+        check_offsets(array("offsets"), count, corners);
+        read_connectivity(array("connectivity"), times(count, corners), corners);
     }
 
-    /// Also counts the cells.
-    std::size_t cell_dimension(const pugi::xml_node& piece, const pugi::xml_node& node) {
-        const Array<std::int64_t> types = plain<std::int64_t>(node);
-        const std::uint64_t claimed = count_attribute(piece, "NumberOfCells");
-        if (types.size() != claimed || types.empty()) {
-            fail(node, types.empty()
-                           ? "there are no cells"
-                           : fmt::format("{} cells are claimed, {} types are there", claimed, types.size()));
+    /// The first cell of all decides what the mesh is made of.
+    void check_types(const pugi::xml_node& node, std::uint64_t claimed) {
+        const Array<std::int64_t> types = plain<std::int64_t>(node, claimed);
+        if (types.size() != claimed) {
+            fail(node, fmt::format("{} cells are claimed, {} types are there", claimed, types.size()));
         }
-        cells_ = checked_index(types.size(), "cells");
-        int dimension = 3;
-        while (dimension > 1 && types.front() != vtk_simplex_type(dimension)) {
-            --dimension;
+        checked_index(types.size(), "cells");
+        if (dimension_ == 0 && !types.empty()) {
+            dimension_ = dimension_of(types.front());
         }
         const auto other = std::find_if(types.begin(), types.end(), [&](std::int64_t type) {
-            return type != vtk_simplex_type(dimension);
+            return type != vtk_simplex_type(static_cast<int>(dimension_));
         });
         if (other != types.end()) {
             fail(node, fmt::format("cell {} is a {}; only lines, only triangles or only tetrahedra are read",
                                    other - types.begin(), vtk_type_name(static_cast<int>(*other & 0xFF))));
         }
+    }
+
+    /// 1 for what is no simplex, too: it is refused with a name then.
+    static std::size_t dimension_of(std::int64_t type) {
+        int dimension = 3;
+        while (dimension > 1 && type != vtk_simplex_type(dimension)) {
+            --dimension;
+        }
         return static_cast<std::size_t>(dimension);
     }
 
-    void check_offsets(const pugi::xml_node& node, std::size_t corners) const {
-        const Array<std::int64_t> offsets = plain<std::int64_t>(node);
-        if (offsets.size() != cells_) {
-            fail(node, fmt::format("{} offsets for {} cells", offsets.size(), cells_));
+    void check_offsets(const pugi::xml_node& node, std::size_t cells, std::size_t corners) {
+        const Array<std::int64_t> offsets = plain<std::int64_t>(node, cells);
+        if (offsets.size() != cells) {
+            fail(node, fmt::format("{} offsets for {} cells", offsets.size(), cells));
         }
         for (std::size_t cell = 0; cell < offsets.size(); ++cell) {
             if (offsets[cell] != static_cast<std::int64_t>((cell + 1) * corners)) {
@@ -293,64 +328,103 @@ private:
         }
     }
 
-    void read_connectivity(const pugi::xml_node& node, std::size_t dimension) {
-        const std::size_t corners = dimension + 1;
-        const std::size_t points = soup_.points.size();
-        Array<Index>& vertices = soup_.simplices[dimension].vertices;
-        vertices = values<Index>(node, [points](auto value) {
+    void read_connectivity(const pugi::xml_node& node, std::size_t count, std::size_t corners) {
+        const std::size_t points = soup_.points.size() - first_point_;
+        Array<Index> vertices = values<Index>(node, count, [points, first = first_point_](auto value) {
             const bool inside = value >= 0 && static_cast<std::uint64_t>(value) < points;
-            return inside ? static_cast<Index>(value) : no_index;
+            return inside ? static_cast<Index>(first + static_cast<std::uint64_t>(value)) : no_index;
         });
-        if (vertices.size() != cells_ * corners) {
-            fail(node, fmt::format("{} vertices for {} cells of {}", vertices.size(), cells_, corners));
+        if (vertices.size() != count) {
+            fail(node,
+                 fmt::format("{} vertices for {} cells of {}", vertices.size(), count / corners, corners));
         }
         const auto bad = std::find(vertices.begin(), vertices.end(), no_index);
         if (bad != vertices.end()) {
             fail(node, fmt::format("cell {} names a point that does not exist; there are {}",
                                    static_cast<std::size_t>(bad - vertices.begin()) / corners, points));
         }
+        append(soup_.simplices[dimension_].vertices, std::move(vertices));
+    }
+
+    template<class Values>
+    static void append(Values& all, Values&& more) {
+        if (all.empty()) {
+            all = std::move(more);
+        } else {
+            all.insert(all.end(), more.begin(), more.end());
+        }
     }
 
     // --- data ---
 
-    void read_data(std::vector<DataArray>& arrays, const pugi::xml_node& section, std::size_t rows) {
-        for (const pugi::xml_node node : section.children("DataArray")) {
-            add_data(arrays, node, rows);
+    /// Every piece has the same arrays in the same order.
+    void read_data(std::vector<DataArray>& arrays, const pugi::xml_node& piece, const char* section,
+                   std::uint64_t rows) {
+        std::size_t place = 0;
+        for (const pugi::xml_node node : piece.child(section).children("DataArray")) {
+            DataArray array = data_array(node, rows);
+            if (is_first_piece_) {
+                arrays.push_back(std::move(array));
+            } else {
+                join(node, arrays, place++, std::move(array));
+            }
+        }
+        if (!is_first_piece_ && place != arrays.size()) {
+            fail(piece, fmt::format("its array \"{}\" in {} is missing", arrays[place].name, section));
         }
     }
 
-    /// `rows` is 0 where any number will do.
-    void add_data(std::vector<DataArray>& arrays, const pugi::xml_node& node, std::size_t rows) {
+    void join(const pugi::xml_node& node, std::vector<DataArray>& arrays, std::size_t place,
+              DataArray array) const {
+        if (place >= arrays.size() || arrays[place].name != array.name ||
+            arrays[place].components != array.components ||
+            arrays[place].values.index() != array.values.index()) {
+            fail(node, "the arrays of the pieces differ in name, type, components or order");
+        }
+        std::visit(
+            [&](auto& all) {
+                using Values = std::decay_t<decltype(all)>;
+                append(all, std::get<Values>(std::move(array.values)));
+            },
+            arrays[place].values);
+    }
+
+    /// Of any number of rows where none is given.
+    DataArray data_array(const pugi::xml_node& node, std::optional<std::uint64_t> rows) {
         const std::string_view type = node.attribute("type").value();
         DataArray array;
         array.name = node.attribute("Name").value();
-        if (type == "String" || node.attribute(text_mark)) {
-            array.values = texts(node);
-            arrays.push_back(std::move(array));
-            return;
-        }
-        std::size_t size = 0;
-        if (type.starts_with("Float")) {
-            array.values = plain<double>(node);
-            size = std::get<Array<double>>(array.values).size();
-        } else {
-            array.values = plain<std::int64_t>(node);
-            size = std::get<Array<std::int64_t>>(array.values).size();
-        }
         array.components = node.attribute("NumberOfComponents").as_int(1);
-        const auto width = static_cast<std::size_t>(std::max(1, array.components));
-        if (array.components < 1 || size % width != 0 || (rows > 0 && size / width != rows)) {
-            fail(node, fmt::format("{} values are no {} rows of {}", size, rows, array.components));
+        if (array.components < 1) {
+            fail(node, fmt::format("{} is no number of components", array.components));
         }
-        arrays.push_back(std::move(array));
+        const auto width = static_cast<std::uint64_t>(array.components);
+        const std::uint64_t tuples = rows ? *rows
+                                     : node.attribute("NumberOfTuples")
+                                         ? count_attribute(node, "NumberOfTuples")
+                                         : any_count;
+        if (type == "String") {
+            array.values = texts(node, any_count);
+        } else if (node.attribute(text_mark)) {
+            array.values = texts(node, rows ? any_count : tuples);
+        } else if (type.starts_with("Float")) {
+            array.values = plain<double>(node, times(tuples, width));
+        } else {
+            array.values = plain<std::int64_t>(node, times(tuples, width));
+        }
+        const std::size_t size = std::visit([](const auto& values) { return values.size(); }, array.values);
+        if (size % width != 0 || (rows && size / width != *rows)) {
+            fail(node, fmt::format("{} values are no {} rows of {}", size, rows.value_or(0), width));
+        }
+        return array;
     }
 
-    std::vector<std::string> texts(const pugi::xml_node& node) const {
-        const Stored source = stored(node);
-        std::string characters{source.bytes};
+    std::vector<std::string> texts(const pugi::xml_node& node, std::uint64_t most) {
+        const Stored source = stored(node, most);
+        std::string characters{source.payload.bytes};
         if (source.is_text) {
             Array<char> codes;
-            parse_text<std::uint8_t>(node, source.bytes, codes,
+            parse_text<std::uint8_t>(node, source.text, codes,
                                      [](auto code) { return static_cast<char>(code); });
             characters.assign(codes.begin(), codes.end());
         }
@@ -366,8 +440,11 @@ private:
     std::string_view bytes_;
     Appended appended_;
     pugi::xml_document document_;
-    bool wide_header_ = false;
-    std::size_t cells_ = 0;
+    PayloadFormat format_;
+    std::uint64_t consumed_ = 0;  ///< bytes of the file that made arrays
+    std::size_t dimension_ = 0;   ///< 0 until there was a cell
+    std::size_t first_point_ = 0; ///< of the piece
+    bool is_first_piece_ = true;
     Soup soup_;
 };
 

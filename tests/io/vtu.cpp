@@ -34,9 +34,9 @@ std::string text_refusal(const std::string& from, const std::string& to) {
 
 TEST_CASE("meshio's and VTK's files hold the same mesh in each encoding", "[io]") {
     const io::Soup gmsh = io::read_msh(fixture("coarse_41_binary.msh"));
-    for (const char* name :
-         {"meshio_ascii.vtu", "meshio_base64.vtu", "vtk_ascii.vtu", "vtk_base64.vtu", "vtk_base64_32.vtu",
-          "vtk_raw.vtu", "vtk_raw_32.vtu", "vtk_appended_base64.vtu"}) {
+    for (const char* name : {"meshio_ascii.vtu", "meshio_base64.vtu", "meshio_zlib.vtu", "vtk_ascii.vtu",
+                             "vtk_base64.vtu", "vtk_base64_32.vtu", "vtk_raw.vtu", "vtk_raw_32.vtu",
+                             "vtk_appended_base64.vtu", "vtk_zlib.vtu", "vtk_big_endian.vtu"}) {
         CAPTURE(name);
         const io::Soup soup = io::read_vtu(fixture(name));
         CHECK(soups::volume(soup) == Approx(1));
@@ -71,16 +71,16 @@ TEST_CASE("A grid of triangles is read", "[io]") {
 
 TEST_CASE("A VTU file that we do not read is refused by name", "[io]") {
     using Catch::Contains;
-    CHECK_THAT(scratch::refusal(io::read_vtu, fixture("meshio_zlib.vtu")), Contains("compressed"));
-    CHECK_THAT(scratch::refusal(io::read_vtu, fixture("vtk_zlib.vtu")), Contains("compressed"));
-    CHECK_THAT(scratch::refusal(io::read_vtu, fixture("vtk_big_endian.vtu")), Contains("big-endian"));
+    CHECK_THAT(text_refusal("version", "compressor=\"vtkLZMADataCompressor\" version"),
+               Contains("vtkLZMADataCompressor"));
+    CHECK_THAT(text_refusal("\"LittleEndian", "\"MiddleEndian"), Contains("MiddleEndian"));
+    CHECK_THAT(text_refusal("version", "header_type=\"UInt16\" version"), Contains("UInt16"));
     CHECK_THAT(scratch::refusal(io::read_vtu, fixture("mixed.vtu")), Contains("is a triangle"));
     CHECK_THAT(scratch::refusal(io::read_vtu, fixture("quads.msh")), Contains("no VTU file"));
     CHECK_THAT(text_refusal("UnstructuredGrid\"", "PolyData\""), Contains("PolyData"));
     CHECK_THAT(text_refusal(">10<", ">12<"), Contains("cell 0 is a hexahedron"));
     CHECK_THAT(text_refusal(">10<", ">3<"), Contains("cell 0 has not 2 vertices"));
     CHECK_THAT(text_refusal(">10<", ">1<"), Contains("cell 0 is a vertex"));
-    CHECK_THAT(text_refusal("</Piece>", "</Piece><Piece/>"), Contains("exactly one Piece"));
     CHECK_THAT(text_refusal("\"Int32\" Name=\"c", "\"Bit\" Name=\"c"), Contains("\"Bit\""));
 }
 
@@ -144,10 +144,13 @@ TEST_CASE("Random damage to a VTU file never does more than refuse it", "[io]") 
 
 TEST_CASE("What is written as VTU comes back bit for bit", "[io]") {
     const scratch::Folder folder;
+    const auto encoding =
+        GENERATE(io::VtuEncoding::raw, io::VtuEncoding::zlib, io::VtuEncoding::lz4, io::VtuEncoding::ascii);
     for (const specimens::Grid& grid :
          {specimens::Grid{1, 1}, specimens::Grid{1, 9}, specimens::Grid{2, 1}, specimens::Grid{2, 9},
-          specimens::Grid{3, 1}, specimens::Grid{3, 6}}) {
-        io::write_vtu(folder / "a.vtu", grid.columns());
+          specimens::Grid{3, 1}, specimens::Grid{3, 6}, specimens::Grid{2, 150}}) { // several packed blocks
+        io::write_vtu(folder / "a.vtu", grid.columns(), encoding);
+        CHECK(folder.file_count() == 1);
         const io::Soup soup = io::read_mesh(folder / "a.vtu");
         const auto top = static_cast<std::size_t>(grid.dimension);
         CHECK(soup.points == Array<Point<3>>(grid.points.begin(), grid.points.end()));
@@ -171,9 +174,11 @@ TEST_CASE("What is written as VTU comes back bit for bit", "[io]") {
 TEST_CASE("The bytes of a VTU file do not depend on the number of threads", "[io]") {
     const scratch::Folder folder;
     const specimens::Grid grid{3, 30};
+    const auto encoding =
+        GENERATE(io::VtuEncoding::raw, io::VtuEncoding::zlib, io::VtuEncoding::lz4, io::VtuEncoding::ascii);
     for (const int threads : {1, 2, 5}) {
         set_thread_count(threads);
-        io::write_vtu(folder / fmt::format("{}.vtu", threads), grid.columns());
+        io::write_vtu(folder / fmt::format("{}.vtu", threads), grid.columns(), encoding);
     }
     set_thread_count(0);
     CHECK(scratch::bytes_of(folder / "1.vtu") == scratch::bytes_of(folder / "2.vtu"));

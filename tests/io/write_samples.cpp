@@ -4,6 +4,7 @@
 #include "slabhull/io/files.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 int main(int argument_count, char** arguments) {
     if (argument_count != 2) {
@@ -12,8 +13,15 @@ int main(int argument_count, char** arguments) {
     const std::filesystem::path folder{arguments[1]};
     std::filesystem::create_directories(folder);
     for (const int dimension : {1, 2, 3}) {
-        const specimens::Grid grid{dimension, 7};
+        const specimens::Grid grid{dimension, dimension == 2 ? 110 : 7}; // 2: several packed blocks
         slabhull::io::write_vtu(folder / fmt::format("grid{}.vtu", dimension), grid.columns());
+        using slabhull::io::VtuEncoding;
+        for (const auto& [name, encoding] : {std::pair{"zlib", VtuEncoding::zlib},
+                                             {"lz4", VtuEncoding::lz4},
+                                             {"ascii", VtuEncoding::ascii}}) {
+            const auto path = folder / fmt::format("grid{}_{}.vtu", dimension, name);
+            slabhull::io::write_vtu(path, grid.columns(), encoding);
+        }
         slabhull::io::write_msh(folder / fmt::format("grid{}.msh", dimension), grid.columns());
     }
     return 0;

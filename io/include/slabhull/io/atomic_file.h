@@ -28,6 +28,8 @@ public:
     void finish();
     /// Gives the file its name, for good: the folder is synced, too.
     void commit();
+    /// Where the file will stand.
+    std::filesystem::path folder() const { return target_.parent_path(); }
     /// Sums up what is written from now on.
     void keep_checksum() { checksum_.emplace(); }
     std::uint32_t checksum() const { return checksum_ ? checksum_->value() : 0; }

@@ -12,19 +12,24 @@
 namespace slabhull::io {
 
 // All readers throw InputError naming the file, the place (line or byte) and the entity at fault. Memory
-// stays within a small multiple of the file's size, whatever counts it claims. All writers write beside the
-// final name and rename when complete and synced; they throw OutputError, and then whatever stood under the
-// final name is untouched. Their memory does not grow with the mesh; the bytes do not depend on the number of
-// threads.
+// stays within a small multiple of the file's size, whatever counts it claims; packed arrays take what the
+// XML says they hold, at most 1032 times their size in the file with zlib and 255 times with LZ4. All writers
+// write beside the final name and rename when complete and synced; they throw OutputError, and then whatever
+// stood under the final name is untouched. Their memory does not grow with the mesh; the bytes do not depend
+// on the number of threads.
 
-/// MSH 2.2 and 4.1, ASCII and binary (little-endian). Points and straight lines, triangles and tetrahedra;
-/// other elements, and partitioned meshes, are refused by name. Groups: those with a name and those in use.
-/// An element of an entity in several groups gets the first; one that MSH 2.2 repeats for each of its groups
-/// stays repeated. Data: `$NodeData` that give each node a value and `$ElementData` that give one to each
-/// simplex of the top dimension become arrays of doubles; other sections are passed over.
+/// MSH 2.2 and 4.1, ASCII and binary, in either byte order. Points and straight lines, triangles and
+/// tetrahedra; other elements are refused by name. Parameters of nodes are passed over, and so are
+/// partitions: of a partitioned mesh come the elements of the model, each once, with the model's entities.
+/// Groups: those with a name and those in use. An element of an entity in several groups gets the first; one
+/// that MSH 2.2 repeats for each of its groups stays repeated. Data: `$NodeData` that give each node a value
+/// and `$ElementData` that give one to each simplex of the top dimension become arrays of doubles; other
+/// sections are passed over.
 Soup read_msh(const std::filesystem::path& path);
-/// VTU of lines only, triangles only or tetrahedra only, in one piece, little-endian and uncompressed; arrays
-/// inline or appended, ASCII, base64 or raw. Integers become int64, reals double, text arrays strings.
+/// VTU of lines only, triangles only or tetrahedra only, in either byte order; arrays inline or appended,
+/// ASCII, base64 or raw, as they are or packed by zlib or LZ4. Pieces, which must have the same arrays, are
+/// joined one behind the other; points that they share stay apart. Integers become int64, reals double, text
+/// arrays strings.
 Soup read_vtu(const std::filesystem::path& path);
 /// MSH or VTU by extension, or else by content.
 Soup read_mesh(const std::filesystem::path& path);
@@ -48,17 +53,22 @@ CsvTable read_csv(const std::filesystem::path& path);
 /// z, roll_deg, pitch_deg, yaw_deg.
 CsvTable read_motion_table(const std::filesystem::path& path);
 
-/// VTU, appended raw, UInt64 headers, little-endian; connectivity in 32 bits where it fits. Text arrays are
+/// How the arrays of a VTU file are stored: appended raw as they are, or packed by zlib (level 5) or LZ4 in
+/// blocks of 256 KiB; or as text with the shortest digits that give the same number again. Packed arrays wait
+/// for their places in a file without a name in the same folder. VTK reads all, meshio all but LZ4.
+enum class VtuEncoding { raw, zlib, lz4, ascii };
+/// VTU, UInt64 headers, little-endian; connectivity in 32 bits where it fits. Text arrays are
 /// UInt8, each text ended by a zero byte (meshio opens no file with a string array of VTK's own kind);
 /// read_vtu() gives them back.
-void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh);
+void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh,
+               VtuEncoding encoding = VtuEncoding::raw);
 /// MSH 4.1 binary: dense tags from 1, one block of nodes, one of elements per group (groups may share a
 /// number, and then an entity), `$Entities` and `$PhysicalNames`; point data as `$NodeData`, cell data as
 /// `$ElementData` (components > 1 become name_0, name_1 ..). Throws LimitError when data have more rows than
 /// the format's 32 bits count, std::invalid_argument when the groups do not hold all cells in order.
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
 /// The same into a file that is the caller's to commit.
-void write_vtu(AtomicFile& file, const MeshColumns& mesh);
+void write_vtu(AtomicFile& file, const MeshColumns& mesh, VtuEncoding encoding = VtuEncoding::raw);
 void write_msh(AtomicFile& file, const MeshColumns& mesh);
 
 /// A file of a series, and its time.
