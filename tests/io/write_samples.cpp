@@ -15,6 +15,9 @@ int main(int argument_count, char** arguments) {
         const specimens::Grid grid{dimension, 7};
         slabhull::io::write_vtu(folder / fmt::format("grid{}.vtu", dimension), grid.columns());
         slabhull::io::write_msh(folder / fmt::format("grid{}.msh", dimension), grid.columns());
+        slabhull::io::write_medit(folder / fmt::format("grid{}.mesh", dimension), grid.columns());
+        slabhull::io::write_medit(folder / fmt::format("grid{}_4d.mesh", dimension), grid.columns(),
+                                  {.four_dimensional = true});
     }
     return 0;
 }

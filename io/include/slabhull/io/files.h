@@ -29,6 +29,12 @@ Soup read_vtu(const std::filesystem::path& path);
 /// MSH or VTU by extension, or else by content.
 Soup read_mesh(const std::filesystem::path& path);
 
+/// Medit .mesh, ASCII, of 2, 3 or 4 dimensions: vertices, edges, triangles, tetrahedra. References become
+/// groups without names; those of vertices, where one is not 0, the point data `medit:ref`. A fourth
+/// coordinate becomes the point data `t`. What says how edges and surfaces shall look (corners, ridges,
+/// normals) is passed over; other elements, negative references and a file without `End` are refused.
+Soup read_medit(const std::filesystem::path& path);
+
 /// A surface of triangles from STL, OFF, OBJ or PLY, by extension; faces as they come, however they meet.
 /// Polygons are refused. Vertices of an STL, which has no other notion of connectivity, are in single
 /// precision and welded where equal; facets that collapse by it are left out. The others keep double
@@ -60,6 +66,18 @@ void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
 /// The same into a file that is the caller's to commit.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh);
 void write_msh(AtomicFile& file, const MeshColumns& mesh);
+
+struct MeditOptions {
+    /// Our dialect for hulls in 3D + t: `Dimension 4` and vertices x y z t, t taken from the point data `t`.
+    /// Programs that know Medit's own 2 and 3 dimensions do not read it.
+    bool four_dimensional = false;
+};
+/// Medit .mesh, ASCII, version 2 (4 where a count needs 64 bits). References: the numbers of the groups, and
+/// the point data `medit:ref` (integers) or 0. Doubles come back exactly; names and other data are left out.
+/// Throws UsageError when the dialect is asked for without real point data `t`.
+void write_medit(AtomicFile& file, const MeshColumns& mesh, const MeditOptions& options = {});
+void write_medit(const std::filesystem::path& path, const MeshColumns& mesh,
+                 const MeditOptions& options = {});
 
 /// A file of a series, and its time.
 struct SeriesEntry {

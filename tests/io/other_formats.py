@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""other_formats.py FOLDER: opens the samples of write_samples with meshio and with Gmsh and compares them with the VTU
+of the same mesh, number by number. Prints a line per file.
+
+Exit code 0: all agree; 1: they differ, or a reader fails; 77: a reader is not installed.
+"""
+import pathlib
+import sys
+
+try:
+    import gmsh
+    import meshio
+    import numpy as np
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+GROUPS = (5, 2, 9)  # of the three thirds of the cells, as tests/io/specimens.h has them
+
+
+def expected_groups(count):
+    third = count // 3
+    return np.repeat(GROUPS, (third, third, count - 2 * third))
+
+
+def same(what, found, expected):
+    if not np.array_equal(found, expected):
+        raise ValueError(f"{what} differ")
+
+
+def medit_by_meshio(path, reference):
+    mesh = meshio.read(path)
+    same("points", mesh.points, reference.points)
+    same("cells", mesh.cells[0].data, reference.cells[0].data)
+    same("references", mesh.cell_data["medit:ref"][0], expected_groups(len(mesh.cells[0].data)))
+
+
+def medit_4d_by_meshio(path, reference):
+    mesh = meshio.read(path)
+    same("points", mesh.points, np.column_stack([reference.points, reference.point_data["t"]]))
+    same("cells", mesh.cells[0].data, reference.cells[0].data)
+
+
+def medit_by_gmsh(path, reference):
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(str(path))
+        tags, coordinates, _ = gmsh.model.mesh.getNodes()
+        points = coordinates.reshape(-1, 3)[np.argsort(tags)]
+        dimension = gmsh.model.getDimension()
+        element_tags, corners = gmsh.model.mesh.getElementsByType({1: 1, 2: 2, 3: 4}[dimension])
+        cells = corners.reshape(-1, dimension + 1)[np.argsort(element_tags)].astype(int) - 1
+        same("points", points, reference.points)
+        same("cells", cells, reference.cells[0].data)
+    finally:
+        gmsh.finalize()
+
+
+def checks(folder):
+    for dimension in (1, 2, 3):
+        vtu = f"grid{dimension}.vtu"
+        yield vtu, f"grid{dimension}.mesh", medit_by_meshio
+        yield vtu, f"grid{dimension}.mesh", medit_by_gmsh
+        yield vtu, f"grid{dimension}_4d.mesh", medit_4d_by_meshio
+
+
+def main(folder):
+    bad = 0
+    for vtu, name, check in checks(folder):
+        try:
+            check(folder / name, meshio.read(folder / vtu))
+            print(f"{name} {check.__name__}: agrees")
+        except Exception as problem:  # whatever a reader throws is a finding
+            print(f"{name} {check.__name__}: FAILED: {problem!r}")
+            bad += 1
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        print(__doc__)
+        sys.exit(2)
+    sys.exit(main(pathlib.Path(sys.argv[1])))
