@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""other_formats.py FOLDER: opens the samples of write_samples with meshio and with Gmsh and compares them with the VTU
+"""other_formats.py FOLDER: opens the samples of write_samples with meshio, VTK and Gmsh and compares them with the VTU
 of the same mesh, number by number. Prints a line per file.
 
 Exit code 0: all agree; 1: they differ, or a reader fails; 77: a reader is not installed.
@@ -12,6 +12,8 @@ try:
     import gmsh
     import meshio
     import numpy as np
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
@@ -58,7 +60,41 @@ def medit_by_gmsh(path, reference):
         gmsh.finalize()
 
 
+def surface_by_meshio(path, reference):
+    mesh = meshio.read(path)
+    same("points", mesh.points, reference.points)
+    same("cells", np.concatenate([block.data for block in mesh.cells]), reference.cells[0].data)
+
+
+def stl_by_meshio(path, reference):
+    mesh = meshio.read(path)
+    corners = reference.points.astype(np.float32)[reference.cells[0].data]
+    same("corners", mesh.points[mesh.cells[0].data], corners)
+    facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    facets = np.fromfile(path, dtype=facet, offset=84)  # meshio reads no normals from binary files
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    if not np.allclose(facets["normal"], normals / np.linalg.norm(normals, axis=1)[:, None], atol=1e-4):
+        raise ValueError("normals differ")
+
+
+def surface_by_vtk(path, reference):
+    reader = {".stl": vtk.vtkSTLReader, ".obj": vtk.vtkOBJReader, ".ply": vtk.vtkPLYReader}[path.suffix]()
+    reader.SetFileName(str(path))
+    reader.Update()
+    surface = reader.GetOutput()
+    points = vtk_to_numpy(surface.GetPoints().GetData())
+    cells = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    expected = reference.points.astype(np.float32)[reference.cells[0].data]
+    if not np.allclose(points[cells], expected, atol=1e-6):
+        raise ValueError("corners differ")
+
+
 def checks(folder):
+    for name in ("grid2.off", "grid2.obj", "grid2.ply"):
+        yield "grid2.vtu", name, surface_by_meshio
+    yield "grid2.vtu", "grid2.stl", stl_by_meshio
+    for name in ("grid2.stl", "grid2.obj", "grid2.ply"):
+        yield "grid2.vtu", name, surface_by_vtk
     for dimension in (1, 2, 3):
         vtu = f"grid{dimension}.vtu"
         yield vtu, f"grid{dimension}.mesh", medit_by_meshio

@@ -19,5 +19,9 @@ int main(int argument_count, char** arguments) {
         slabhull::io::write_medit(folder / fmt::format("grid{}_4d.mesh", dimension), grid.columns(),
                                   {.four_dimensional = true});
     }
+    const specimens::Grid surface{2, 7};
+    for (const char* name : {"grid2.stl", "grid2.off", "grid2.obj", "grid2.ply"}) {
+        slabhull::io::write_surface(folder / name, surface.columns());
+    }
     return 0;
 }

@@ -79,6 +79,16 @@ void write_medit(AtomicFile& file, const MeshColumns& mesh, const MeditOptions& 
 void write_medit(const std::filesystem::path& path, const MeshColumns& mesh,
                  const MeditOptions& options = {});
 
+/// Surfaces of triangles: STL (binary; coordinates in single precision, vertices repeated by facet), OFF and
+/// OBJ (text, doubles that come back exactly), PLY (binary, doubles). Groups and data are left out. Throws
+/// UsageError for a mesh of other simplices, LimitError where counts or, in STL, coordinates are too large.
+void write_stl(AtomicFile& file, const MeshColumns& mesh);
+void write_off(AtomicFile& file, const MeshColumns& mesh);
+void write_obj(AtomicFile& file, const MeshColumns& mesh);
+void write_ply(AtomicFile& file, const MeshColumns& mesh);
+/// One of these, by extension.
+void write_surface(const std::filesystem::path& path, const MeshColumns& mesh);
+
 /// A file of a series, and its time.
 struct SeriesEntry {
     double time = 0;
