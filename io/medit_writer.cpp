@@ -3,6 +3,7 @@
 
 #include "cell_groups.h"
 #include "column_stream.h"
+#include "scalar_data.h"
 #include "slabhull/core/error.h"
 #include "text_stream.h"
 
@@ -13,25 +14,12 @@ namespace slabhull::io {
 
 namespace {
 
-/// The column of that name and type with one component per point; one without rows if there is none.
-template<class T>
-Column<T> scalar_data(const MeshColumns& mesh, const std::string& name) {
-    for (const DataColumn& data : mesh.point_data) {
-        const auto* column = std::get_if<Column<T>>(&data.values);
-        if (data.name == name && column != nullptr && column->components() == 1) {
-            return *column;
-        }
-    }
-    return {};
-}
-
 class MeditWriter {
 public:
     MeditWriter(AtomicFile& file, const MeshColumns& mesh, const MeditOptions& options)
-        : mesh_{mesh}, groups_{groups_of(mesh, "write_medit")}, out_{file},
-          references_{scalar_data<std::int64_t>(mesh, "medit:ref")} {
+        : mesh_{mesh}, groups_{groups_of(mesh, "write_medit")}, out_{file}, references_{mesh, "medit:ref"} {
         if (options.four_dimensional) {
-            time_ = scalar_data<double>(mesh, "t");
+            time_ = {mesh, "t"};
             if (!time_.given()) {
                 throw UsageError("a Medit file of four dimensions needs the times of points, the point data "
                                  "\"t\"; this mesh has none");
@@ -52,31 +40,15 @@ public:
 
 private:
     void write_vertices() {
-        constexpr std::size_t chunk = 1024;
-        std::vector<double> time(chunk);
-        std::vector<std::int64_t> references(chunk);
         out_.put("Vertices\n");
         out_.number(mesh_.points.rows(), '\n');
         for_each_row(mesh_.points, 0, mesh_.points.rows(), [&](std::size_t row, const double* x) {
-            const std::size_t place = row % chunk;
-            if (place == 0) {
-                fill(time_, row, time);
-                fill(references_, row, references);
-            }
             out_.numbers(x, 3, ' ');
             if (time_.given()) {
-                out_.number(time[place], ' ');
+                out_.number(time_[row], ' ');
             }
-            out_.number(references[place], '\n');
+            out_.number(references_.given() ? references_[row] : 0, '\n');
         });
-    }
-
-    /// Rows from `first` on, as many as there is room for; nothing where nothing is given.
-    template<class T>
-    static void fill(const Column<T>& column, std::size_t first, std::vector<T>& values) {
-        if (column.given()) {
-            column.fill(first, std::min(column.rows(), first + values.size()), values.data());
-        }
     }
 
     void write_cells() {
@@ -97,8 +69,8 @@ private:
     const MeshColumns& mesh_;
     std::vector<MeshColumns::Group> groups_;
     TextStream out_;
-    Column<double> time_; ///< given in four dimensions only
-    Column<std::int64_t> references_;
+    PointScalars<double> time_; ///< given in four dimensions only
+    PointScalars<std::int64_t> references_;
 };
 
 } // namespace

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""other_formats.py FOLDER: opens the samples of write_samples with meshio, VTK and Gmsh and compares them with the VTU
-of the same mesh, number by number. Prints a line per file.
+"""other_formats.py FOLDER: opens the samples of write_samples with meshio, VTK, Gmsh and Python's json and compares
+them with the VTU of the same mesh, number by number. Prints a line per file.
 
 Exit code 0: all agree; 1: they differ, or a reader fails; 77: a reader is not installed.
 """
+import json
 import pathlib
 import sys
 
@@ -89,6 +90,19 @@ def surface_by_vtk(path, reference):
         raise ValueError("corners differ")
 
 
+def avro_by_json(path, reference):
+    mesh = json.loads(path.read_text())
+    dimension = reference.cells[0].data.shape[1] - 1
+    points = reference.points
+    if dimension == 3:
+        points = np.column_stack([points, reference.point_data["t"]])
+    head = (mesh["dim"], mesh["number"], mesh["type"], mesh["nb_ghost"])
+    if head != (points.shape[1], dimension, "simplex", 0):
+        raise ValueError(f"the head is {head}")
+    same("points", np.reshape(mesh["vertices"], points.shape), points)
+    same("cells", np.reshape(mesh["elements"], (-1, dimension + 1)), reference.cells[0].data)
+
+
 def checks(folder):
     for name in ("grid2.off", "grid2.obj", "grid2.ply"):
         yield "grid2.vtu", name, surface_by_meshio
@@ -100,6 +114,7 @@ def checks(folder):
         yield vtu, f"grid{dimension}.mesh", medit_by_meshio
         yield vtu, f"grid{dimension}.mesh", medit_by_gmsh
         yield vtu, f"grid{dimension}_4d.mesh", medit_4d_by_meshio
+        yield vtu, f"grid{dimension}.avro", avro_by_json
 
 
 def main(folder):

@@ -34,6 +34,11 @@ Soup read_mesh(const std::filesystem::path& path);
 /// coordinate becomes the point data `t`. What says how edges and surfaces shall look (corners, ridges,
 /// normals) is passed over; other elements, negative references and a file without `End` are refused.
 Soup read_medit(const std::filesystem::path& path);
+/// The mesh of the adaptation library avro (.avro): a JSON object with the keys `dim` (2, 3 or 4), `number`
+/// (the simplices' dimension), `type` ("simplex"), `vertices` (all coordinates) and `elements` (all vertices'
+/// numbers, from 0), and perhaps `nb_ghost` (0). A fourth coordinate becomes the point data `t`; other keys
+/// are passed over.
+Soup read_avro(const std::filesystem::path& path);
 
 /// A surface of triangles from STL, OFF, OBJ or PLY, by extension; faces as they come, however they meet.
 /// Polygons are refused. Vertices of an STL, which has no other notion of connectivity, are in single
@@ -78,6 +83,11 @@ struct MeditOptions {
 void write_medit(AtomicFile& file, const MeshColumns& mesh, const MeditOptions& options = {});
 void write_medit(const std::filesystem::path& path, const MeshColumns& mesh,
                  const MeditOptions& options = {});
+
+/// The same layout. Tetrahedra with real point data `t` have vertices x, y, z, t, all others x, y, z. Doubles
+/// come back exactly; groups and other data are left out.
+void write_avro(AtomicFile& file, const MeshColumns& mesh);
+void write_avro(const std::filesystem::path& path, const MeshColumns& mesh);
 
 /// Surfaces of triangles: STL (binary; coordinates in single precision, vertices repeated by facet), OFF and
 /// OBJ (text, doubles that come back exactly), PLY (binary, doubles). Groups and data are left out. Throws
