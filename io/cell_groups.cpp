@@ -2,6 +2,7 @@
 #include "cell_groups.h"
 
 #include <fmt/format.h>
+#include <set>
 #include <stdexcept>
 
 namespace slabhull::io {
@@ -21,6 +22,17 @@ std::vector<MeshColumns::Group> groups_of(const MeshColumns& mesh, const char* w
         throw std::invalid_argument{fmt::format("{}: the groups must hold all cells", writer)};
     }
     return mesh.groups;
+}
+
+void list_groups_in_use(Soup& soup) {
+    for (std::size_t dimension = 0; dimension < soup.simplices.size(); ++dimension) {
+        const auto& physical = soup.simplices[dimension].physical;
+        for (const PatchNumber number : std::set<PatchNumber>(physical.begin(), physical.end())) {
+            if (number > 0) {
+                soup.groups[dimension].push_back({number, ""});
+            }
+        }
+    }
 }
 
 } // namespace slabhull::io

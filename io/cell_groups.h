@@ -11,4 +11,7 @@ namespace slabhull::io {
 /// std::invalid_argument when they do not hold all cells in order; `writer` names the function at fault.
 std::vector<MeshColumns::Group> groups_of(const MeshColumns& mesh, const char* writer);
 
+/// Lists the groups that the simplices of a soup are in, without names.
+void list_groups_in_use(Soup& soup);
+
 } // namespace slabhull::io

@@ -3,6 +3,7 @@
 // of libMeshb.
 #include "slabhull/io/files.h"
 
+#include "cell_groups.h"
 #include "comments.h"
 #include "file_cursor.h"
 
@@ -52,7 +53,7 @@ public:
         while (read_section()) {
         }
         require(seen_.contains("Vertices"), "there is no section Vertices");
-        list_groups();
+        list_groups_in_use(soup_);
         return std::move(soup_);
     }
 
@@ -190,17 +191,6 @@ private:
                                  simplex + 1, vertex, soup_.points.size()));
         }
         return static_cast<Index>(vertex - 1);
-    }
-
-    void list_groups() {
-        for (std::size_t dimension = 1; dimension < 4; ++dimension) {
-            const auto& physical = soup_.simplices[dimension].physical;
-            for (const PatchNumber number : std::set<PatchNumber>(physical.begin(), physical.end())) {
-                if (number > 0) {
-                    soup_.groups[dimension].push_back({number, ""});
-                }
-            }
-        }
     }
 
     FileCursor in_;

@@ -103,6 +103,43 @@ def avro_by_json(path, reference):
     same("cells", np.reshape(mesh["elements"], (-1, dimension + 1)), reference.cells[0].data)
 
 
+def mfem_by_hand(path, reference):
+    """Reads as https://mfem.org/mesh-format-v1.0 says; no reader for it comes with Debian."""
+    words = [line.split("#")[0] for line in path.read_text().splitlines()]
+    if words[0] != "MFEM mesh v1.0":
+        raise ValueError("the head is wrong")
+    words = iter(" ".join(words[1:]).split())
+
+    def section(name):
+        if next(words) != name:
+            raise ValueError(f"{name} was expected")
+        return int(next(words))
+
+    def elements(name, dimension):
+        rows = [[int(next(words)) for _ in range(dimension + 3)] for _ in range(section(name))]
+        rows = np.array(rows, dtype=int).reshape(-1, dimension + 3)
+        same("geometry types", rows[:, 1], np.full(len(rows), (0, 1, 2, 4)[dimension]))
+        return rows[:, 0], rows[:, 2:]
+
+    dimension = section("dimension")
+    attributes, cells = elements("elements", dimension)
+    boundary_attributes, boundary = elements("boundary", dimension - 1)
+    count, width = section("vertices"), int(next(words))
+    points = np.array([float(next(words)) for _ in range(count * width)]).reshape(count, width)
+    if next(words, None) is not None:
+        raise ValueError("something follows the vertices")
+    same("points", points, reference.points[:, :width])
+    same("cells", cells, reference.cells[0].data)
+    same("attributes", attributes, expected_groups(len(cells)))
+    same("boundary attributes", boundary_attributes, np.ones(len(boundary)))
+    facets = np.sort(np.concatenate([np.delete(cells, i, axis=1) for i in range(dimension + 1)]), axis=1)
+    facets, uses = np.unique(facets, axis=0, return_counts=True)
+    same("boundary", np.unique(np.sort(boundary, axis=1), axis=0), facets[uses == 1])
+    if dimension == 2 and not set(map(tuple, boundary)) <= {
+            (a, b) for i, j in ((0, 1), (1, 2), (2, 0)) for a, b in cells[:, (i, j)]}:
+        raise ValueError("boundary elements are not oriented as the cells")
+
+
 def checks(folder):
     for name in ("grid2.off", "grid2.obj", "grid2.ply"):
         yield "grid2.vtu", name, surface_by_meshio
@@ -115,6 +152,7 @@ def checks(folder):
         yield vtu, f"grid{dimension}.mesh", medit_by_gmsh
         yield vtu, f"grid{dimension}_4d.mesh", medit_4d_by_meshio
         yield vtu, f"grid{dimension}.avro", avro_by_json
+        yield vtu, f"grid{dimension}.mfem", mfem_by_hand
 
 
 def main(folder):

@@ -18,6 +18,7 @@ int main(int argument_count, char** arguments) {
         slabhull::io::write_medit(folder / fmt::format("grid{}.mesh", dimension), grid.columns());
         slabhull::io::write_medit(folder / fmt::format("grid{}_4d.mesh", dimension), grid.columns(),
                                   {.four_dimensional = true});
+        slabhull::io::write_mfem(folder / fmt::format("grid{}.mfem", dimension), grid.columns());
         slabhull::io::write_avro(folder / fmt::format("grid{}.avro", dimension), grid.columns());
     }
     const specimens::Grid surface{2, 7};

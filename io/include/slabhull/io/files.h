@@ -39,6 +39,9 @@ Soup read_medit(const std::filesystem::path& path);
 /// numbers, from 0), and perhaps `nb_ghost` (0). A fourth coordinate becomes the point data `t`; other keys
 /// are passed over.
 Soup read_avro(const std::filesystem::path& path);
+/// MFEM mesh v1.0 without curves: segments, triangles or tetrahedra, and their boundary elements. Attributes
+/// become groups without names.
+Soup read_mfem(const std::filesystem::path& path);
 
 /// A surface of triangles from STL, OFF, OBJ or PLY, by extension; faces as they come, however they meet.
 /// Polygons are refused. Vertices of an STL, which has no other notion of connectivity, are in single
@@ -88,6 +91,15 @@ void write_medit(const std::filesystem::path& path, const MeshColumns& mesh,
 /// come back exactly; groups and other data are left out.
 void write_avro(AtomicFile& file, const MeshColumns& mesh);
 void write_avro(const std::filesystem::path& path, const MeshColumns& mesh);
+
+/// MFEM mesh v1.0. Attributes of elements are the groups' numbers, those of cells without a group the number
+/// after the largest. The boundary elements are the facets of one cell only, oriented as its boundary, with
+/// attribute 1; to find them the cells are copied: with their adjacency 8 (D + 1) bytes per cell. Two
+/// coordinates where all third ones of lines or triangles are 0. Doubles come back exactly; names and data,
+/// the times of hulls in 3D + t among them, are left out. Throws LimitError beyond 2^31 - 1 vertices or
+/// cells, GeometryError for a cell that has a vertex twice.
+void write_mfem(AtomicFile& file, const MeshColumns& mesh);
+void write_mfem(const std::filesystem::path& path, const MeshColumns& mesh);
 
 /// Surfaces of triangles: STL (binary; coordinates in single precision, vertices repeated by facet), OFF and
 /// OBJ (text, doubles that come back exactly), PLY (binary, doubles). Groups and data are left out. Throws
