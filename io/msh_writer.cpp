@@ -2,6 +2,7 @@
 // The MSH 4.1 format is described in the Gmsh reference manual, section "MSH file format".
 #include "slabhull/io/files.h"
 
+#include "cell_groups.h"
 #include "column_stream.h"
 #include "gmsh_types.h"
 #include "slabhull/core/error.h"
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 #include <limits>
 #include <set>
-#include <stdexcept>
 
 namespace slabhull::io {
 
@@ -49,7 +49,7 @@ Box box_of(const Column<double>& points) {
 class MshWriter {
 public:
     MshWriter(AtomicFile& file, const MeshColumns& mesh)
-        : mesh_{mesh}, groups_{groups_of(mesh)}, entities_{entities_of(groups_)}, file_{file} {}
+        : mesh_{mesh}, groups_{groups_of(mesh, "write_msh")}, entities_{entities_of(groups_)}, file_{file} {}
 
     void write() {
         write_format();
@@ -67,23 +67,6 @@ public:
 
 private:
     using Group = MeshColumns::Group;
-
-    static std::vector<Group> groups_of(const MeshColumns& mesh) {
-        if (mesh.groups.empty()) {
-            return {{0, mesh.cells.rows(), 0, ""}};
-        }
-        std::size_t end = 0;
-        for (const Group& group : mesh.groups) {
-            if (group.begin != end || group.end < group.begin) {
-                throw std::invalid_argument{"write_msh: the groups must follow one another"};
-            }
-            end = group.end;
-        }
-        if (end != mesh.cells.rows()) {
-            throw std::invalid_argument{"write_msh: the groups must hold all cells"};
-        }
-        return mesh.groups;
-    }
 
     /// The number of each entity's physical group; groups with the same number share an entity.
     static std::vector<PatchNumber> entities_of(const std::vector<Group>& groups) {

@@ -23,6 +23,15 @@ int main(int argument_count, char** arguments) {
             slabhull::io::write_vtu(path, grid.columns(), encoding);
         }
         slabhull::io::write_msh(folder / fmt::format("grid{}.msh", dimension), grid.columns());
+        slabhull::io::write_medit(folder / fmt::format("grid{}.mesh", dimension), grid.columns());
+        slabhull::io::write_medit(folder / fmt::format("grid{}_4d.mesh", dimension), grid.columns(),
+                                  {.four_dimensional = true});
+        slabhull::io::write_mfem(folder / fmt::format("grid{}.mfem", dimension), grid.columns());
+        slabhull::io::write_avro(folder / fmt::format("grid{}.avro", dimension), grid.columns());
+    }
+    const specimens::Grid surface{2, 7};
+    for (const char* name : {"grid2.stl", "grid2.off", "grid2.obj", "grid2.ply"}) {
+        slabhull::io::write_surface(folder / name, surface.columns());
     }
     return 0;
 }

@@ -187,9 +187,21 @@ def vtk_files():
     write("vtk_zlib.vtu", "appended", compress=True)
 
 
+def medit_files():
+    """The coarse mesh, with groups as references, in Gmsh's own layout and in meshio's."""
+    gmsh.clear()
+    gmsh.open("coarse_22_ascii.msh")
+    gmsh.option.setNumber("Mesh.SaveElementTagType", 2)
+    gmsh.write("coarse_gmsh.mesh")
+    mesh = meshio.read("coarse_22_ascii.msh")
+    groups = [np.asarray(numbers, dtype=int) for numbers in mesh.cell_data["gmsh:physical"]]
+    meshio.Mesh(mesh.points, mesh.cells, cell_data={"ref": groups}).write("coarse_meshio.mesh")
+
+
 gmsh.initialize()
 gmsh.option.setNumber("General.Verbosity", 1)
 gmsh_files()
+medit_files()
 gmsh.finalize()
 gaps_and_disorder()
 short_size_t()

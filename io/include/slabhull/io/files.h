@@ -34,6 +34,20 @@ Soup read_vtu(const std::filesystem::path& path);
 /// MSH or VTU by extension, or else by content.
 Soup read_mesh(const std::filesystem::path& path);
 
+/// Medit .mesh, ASCII, of 2, 3 or 4 dimensions: vertices, edges, triangles, tetrahedra. References become
+/// groups without names; those of vertices, where one is not 0, the point data `medit:ref`. A fourth
+/// coordinate becomes the point data `t`. What says how edges and surfaces shall look (corners, ridges,
+/// normals) is passed over; other elements, negative references and a file without `End` are refused.
+Soup read_medit(const std::filesystem::path& path);
+/// The mesh of the adaptation library avro (.avro): a JSON object with the keys `dim` (2, 3 or 4), `number`
+/// (the simplices' dimension), `type` ("simplex"), `vertices` (all coordinates) and `elements` (all vertices'
+/// numbers, from 0), and perhaps `nb_ghost` (0). A fourth coordinate becomes the point data `t`; other keys
+/// are passed over.
+Soup read_avro(const std::filesystem::path& path);
+/// MFEM mesh v1.0 without curves: segments, triangles or tetrahedra, and their boundary elements. Attributes
+/// become groups without names.
+Soup read_mfem(const std::filesystem::path& path);
+
 /// A surface of triangles from STL, OFF, OBJ or PLY, by extension; faces as they come, however they meet.
 /// Polygons are refused. Vertices of an STL, which has no other notion of connectivity, are in single
 /// precision and welded where equal; facets that collapse by it are left out. The others keep double
@@ -70,6 +84,42 @@ void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
 /// The same into a file that is the caller's to commit.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh, VtuEncoding encoding = VtuEncoding::raw);
 void write_msh(AtomicFile& file, const MeshColumns& mesh);
+
+struct MeditOptions {
+    /// Our dialect for hulls in 3D + t: `Dimension 4` and vertices x y z t, t taken from the point data `t`.
+    /// Programs that know Medit's own 2 and 3 dimensions do not read it.
+    bool four_dimensional = false;
+};
+/// Medit .mesh, ASCII, version 2 (4 where a count needs 64 bits). References: the numbers of the groups, and
+/// the point data `medit:ref` (integers) or 0. Doubles come back exactly; names and other data are left out.
+/// Throws UsageError when the dialect is asked for without real point data `t`.
+void write_medit(AtomicFile& file, const MeshColumns& mesh, const MeditOptions& options = {});
+void write_medit(const std::filesystem::path& path, const MeshColumns& mesh,
+                 const MeditOptions& options = {});
+
+/// The same layout. Tetrahedra with real point data `t` have vertices x, y, z, t, all others x, y, z. Doubles
+/// come back exactly; groups and other data are left out.
+void write_avro(AtomicFile& file, const MeshColumns& mesh);
+void write_avro(const std::filesystem::path& path, const MeshColumns& mesh);
+
+/// MFEM mesh v1.0. Attributes of elements are the groups' numbers, those of cells without a group the number
+/// after the largest. The boundary elements are the facets of one cell only, oriented as its boundary, with
+/// attribute 1; to find them the cells are copied: with their adjacency 8 (D + 1) bytes per cell. Two
+/// coordinates where all third ones of lines or triangles are 0. Doubles come back exactly; names and data,
+/// the times of hulls in 3D + t among them, are left out. Throws LimitError beyond 2^31 - 1 vertices or
+/// cells, GeometryError for a cell that has a vertex twice.
+void write_mfem(AtomicFile& file, const MeshColumns& mesh);
+void write_mfem(const std::filesystem::path& path, const MeshColumns& mesh);
+
+/// Surfaces of triangles: STL (binary; coordinates in single precision, vertices repeated by facet), OFF and
+/// OBJ (text, doubles that come back exactly), PLY (binary, doubles). Groups and data are left out. Throws
+/// UsageError for a mesh of other simplices, LimitError where counts or, in STL, coordinates are too large.
+void write_stl(AtomicFile& file, const MeshColumns& mesh);
+void write_off(AtomicFile& file, const MeshColumns& mesh);
+void write_obj(AtomicFile& file, const MeshColumns& mesh);
+void write_ply(AtomicFile& file, const MeshColumns& mesh);
+/// One of these, by extension.
+void write_surface(const std::filesystem::path& path, const MeshColumns& mesh);
 
 /// A file of a series, and its time.
 struct SeriesEntry {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/io/soup.h"
+
+#include <vector>
+
+namespace slabhull::io {
+
+/// The groups of a mesh to be written; one without number or name where none are given. Throws
+/// std::invalid_argument when they do not hold all cells in order; `writer` names the function at fault.
+std::vector<MeshColumns::Group> groups_of(const MeshColumns& mesh, const char* writer);
+
+/// Lists the groups that the simplices of a soup are in, without names.
+void list_groups_in_use(Soup& soup);
+
+} // namespace slabhull::io
