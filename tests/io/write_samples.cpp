@@ -15,6 +15,9 @@ int main(int argument_count, char** arguments) {
         const specimens::Grid grid{dimension, 7};
         slabhull::io::write_vtu(folder / fmt::format("grid{}.vtu", dimension), grid.columns());
         slabhull::io::write_msh(folder / fmt::format("grid{}.msh", dimension), grid.columns());
+        slabhull::io::AtomicFile legacy{folder / fmt::format("grid{}.vtk", dimension)};
+        slabhull::io::write_vtk(legacy, grid.columns());
+        legacy.commit();
     }
     return 0;
 }

@@ -26,6 +26,11 @@ Soup read_msh(const std::filesystem::path& path);
 /// VTU of lines only, triangles only or tetrahedra only, in one piece, little-endian and uncompressed; arrays
 /// inline or appended, ASCII, base64 or raw. Integers become int64, reals double, text arrays strings.
 Soup read_vtu(const std::filesystem::path& path);
+/// VTK legacy (.vtk), versions 1 to 5.1, ASCII and binary: an unstructured grid of vertices, lines, triangles
+/// and tetrahedra, mixed or not, or POLYDATA of vertices, lines of two points and triangles. Where they are
+/// mixed, each simplex keeps its number in the file as its tag. Arrays as in read_vtu(); colours are passed
+/// over, and bit arrays refused. `vtkIdType` is taken as 32 bits, as VTK writes it, `long` as 64.
+Soup read_vtk(const std::filesystem::path& path);
 /// MSH or VTU by extension, or else by content.
 Soup read_mesh(const std::filesystem::path& path);
 
@@ -60,6 +65,10 @@ void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
 /// The same into a file that is the caller's to commit.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh);
 void write_msh(AtomicFile& file, const MeshColumns& mesh);
+/// VTK legacy, version 4.2, binary: what write_vtu() writes, arrays as FIELD, int64 as `long` (the one name
+/// that both VTK, where a long has 64 bits, and meshio know), text arrays as bytes whose component is called
+/// slabhull_text. Throws LimitError when the format's 32 bits do not count the points or the values of CELLS.
+void write_vtk(AtomicFile& file, const MeshColumns& mesh);
 
 /// A file of a series, and its time.
 struct SeriesEntry {
