@@ -4,6 +4,7 @@
 #include "slabhull/io/files.h"
 
 #include "file_cursor.h"
+#include "percent_text.h"
 #include "vtk_names.h"
 
 #include <algorithm>
@@ -22,22 +23,6 @@ std::string lower(std::string_view text) {
     std::string result{text};
     std::transform(result.begin(), result.end(), result.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
-
-/// Names stand without blanks: VTK writes "x%20y".
-std::string percent_decoded(std::string_view text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned char code = 0;
-        if (text[i] == '%' && i + 2 < text.size() &&
-            std::from_chars(&text[i + 1], &text[i + 1] + 2, code, 16).ptr == &text[i + 1] + 2) {
-            result += static_cast<char>(code);
-            i += 2;
-        } else {
-            result += text[i];
-        }
-    }
     return result;
 }
 

@@ -2,6 +2,7 @@
 #include "slabhull/io/files.h"
 
 #include "column_stream.h"
+#include "percent_text.h"
 #include "slabhull/core/error.h"
 #include "vtk_names.h"
 
@@ -14,19 +15,6 @@
 namespace slabhull::io {
 
 namespace {
-
-/// As VTK does: a name is a word.
-std::string percent_encoded(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (c > ' ' && c < '\x7f' && c != '"' && c != '%') {
-            result += c;
-        } else {
-            result += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-        }
-    }
-    return result;
-}
 
 /// Legacy files are big-endian.
 template<class T>

@@ -18,6 +18,9 @@ int main(int argument_count, char** arguments) {
         slabhull::io::AtomicFile legacy{folder / fmt::format("grid{}.vtk", dimension)};
         slabhull::io::write_vtk(legacy, grid.columns());
         legacy.commit();
+        if (dimension > 1) {
+            slabhull::io::write_tetgen(folder / fmt::format("grid{}", dimension), grid.columns());
+        }
     }
     return 0;
 }
