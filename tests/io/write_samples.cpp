@@ -28,6 +28,12 @@ int main(int argument_count, char** arguments) {
                                   {.four_dimensional = true});
         slabhull::io::write_mfem(folder / fmt::format("grid{}.mfem", dimension), grid.columns());
         slabhull::io::write_avro(folder / fmt::format("grid{}.avro", dimension), grid.columns());
+        slabhull::io::AtomicFile legacy{folder / fmt::format("grid{}.vtk", dimension)};
+        slabhull::io::write_vtk(legacy, grid.columns());
+        legacy.commit();
+        if (dimension > 1) {
+            slabhull::io::write_tetgen(folder / fmt::format("grid{}", dimension), grid.columns());
+        }
     }
     const specimens::Grid surface{2, 7};
     for (const char* name : {"grid2.stl", "grid2.off", "grid2.obj", "grid2.ply"}) {

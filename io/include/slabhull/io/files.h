@@ -31,6 +31,18 @@ Soup read_msh(const std::filesystem::path& path);
 /// joined one behind the other; points that they share stay apart. Integers become int64, reals double, text
 /// arrays strings.
 Soup read_vtu(const std::filesystem::path& path);
+/// VTK legacy (.vtk), versions 1 to 5.1, ASCII and binary: an unstructured grid of vertices, lines, triangles
+/// and tetrahedra, mixed or not, or POLYDATA of vertices, lines of two points and triangles. Where they are
+/// mixed, each simplex keeps its number in the file as its tag. Arrays as in read_vtu(); colours are passed
+/// over, and bit arrays refused. `vtkIdType` is taken as 32 bits, as VTK writes it, `long` as 64.
+Soup read_vtk(const std::filesystem::path& path);
+/// TetGen's files, which share a stem; numbers from 0 or 1, comments anywhere. A .node or .ele: the points
+/// and whichever of .ele, .neigh and .face stand beside it; a .face: the points and the triangles. A .poly or
+/// .smesh: the points, in it or beside it, and facets of triangles without holes. Triangle's planar .node and
+/// .ele are read, too. A triangle's positive marker is its group. Data: attributes and "marker" of points,
+/// attributes or "marker" of cells, "neighbors" from 0 (checked, -1 for none), "holes" (3 components) and
+/// "regions" (5) of the field. Attributes are doubles called attribute_0 .., or as write_tetgen() names them.
+Soup read_tetgen(const std::filesystem::path& path);
 /// MSH or VTU by extension, or else by content.
 Soup read_mesh(const std::filesystem::path& path);
 
@@ -84,6 +96,17 @@ void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
 /// The same into a file that is the caller's to commit.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh, VtuEncoding encoding = VtuEncoding::raw);
 void write_msh(AtomicFile& file, const MeshColumns& mesh);
+/// VTK legacy, version 4.2, binary: what write_vtu() writes, arrays as FIELD, int64 as `long` (the one name
+/// that both VTK, where a long has 64 bits, and meshio know), text arrays as bytes whose component is called
+/// slabhull_text. Throws LimitError when the format's 32 bits do not count the points or the values of CELLS.
+void write_vtk(AtomicFile& file, const MeshColumns& mesh);
+
+/// TetGen's files, numbered from 0, stem.node and: of tetrahedra stem.ele and, with cell data "neighbors" of
+/// 4 components, stem.neigh; of triangles stem.face and stem.smesh. Data become attributes, whose names and
+/// types stand in a comment that read_tetgen() knows; point data "marker", one integer, the points' markers.
+/// Groups of tetrahedra become the attribute "group"; a triangle's marker is its "marker", else "patch", else
+/// group, and all else of it is left out. All files appear or none does. Throws UsageError for lines.
+void write_tetgen(const std::filesystem::path& stem, const MeshColumns& mesh);
 
 struct MeditOptions {
     /// Our dialect for hulls in 3D + t: `Dimension 4` and vertices x y z t, t taken from the point data `t`.
