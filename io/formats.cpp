@@ -14,16 +14,16 @@ namespace slabhull::io {
 namespace {
 
 Soup read_stl(const std::filesystem::path& path) {
-    return read_surface(path, ".stl");
+    return read_surface_as(path, ".stl");
 }
 Soup read_off(const std::filesystem::path& path) {
-    return read_surface(path, ".off");
+    return read_surface_as(path, ".off");
 }
 Soup read_obj(const std::filesystem::path& path) {
-    return read_surface(path, ".obj");
+    return read_surface_as(path, ".obj");
 }
 Soup read_ply(const std::filesystem::path& path) {
-    return read_surface(path, ".ply");
+    return read_surface_as(path, ".ply");
 }
 
 constexpr Holds vtu_holds{.point_data = true, .cell_data = true, .field_data = true};

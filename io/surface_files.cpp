@@ -150,10 +150,10 @@ bool is_as_guarded(const SoupImporter& found, const GuardedSurface& guarded) {
 } // namespace
 
 Soup read_surface(const std::filesystem::path& path) {
-    return read_surface(path, lower_extension(path));
+    return read_surface_as(path, lower_extension(path));
 }
 
-Soup read_surface(const std::filesystem::path& path, std::string_view extension) {
+Soup read_surface_as(const std::filesystem::path& path, std::string_view extension) {
     const SurfaceFormat format = format_of(path, extension);
     GuardedSurface guarded;
     {

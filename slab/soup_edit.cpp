@@ -3,6 +3,7 @@
 
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/mesh_order.h"
+#include "slabhull/slab/soup_numbers.h"
 #include "slabhull/topology/adjacency.h"
 #include "soup_rows.h"
 
@@ -68,22 +69,6 @@ Order cells_of_region(io::Soup& soup, std::size_t top, int region) {
     }
     return region == 1 ? side_by_groups(soup, top, initial, terminating)
                        : in_group(soup, top, region == 0 ? initial : terminating);
-}
-
-// --- patches
-
-/// The number of the patch of that name in the field data, or 0; the names go to `known`.
-std::int64_t listed_patch(io::Soup& soup, const std::string& name, std::set<std::string>& known) {
-    const Numbers* numbers = whole_numbers(soup.field_data, "patch_number");
-    const io::DataArray* names = soup.find_field_data("patch_name");
-    const auto* texts = names == nullptr ? nullptr : std::get_if<std::vector<std::string>>(&names->values);
-    std::int64_t found = 0;
-    for (std::size_t i = 0;
-         numbers != nullptr && texts != nullptr && i < std::min(numbers->size(), texts->size()); ++i) {
-        known.insert((*texts)[i]);
-        found = (*texts)[i] == name ? (*numbers)[i] : found;
-    }
-    return found;
 }
 
 // --- boundary
@@ -233,8 +218,11 @@ void select_patch(io::Soup& soup, const std::string& name) {
     std::set<std::string> known;
     std::array<Order, 4> orders;
     const Numbers* patches = whole_numbers(soup.cell_data, "patch");
-    if (const std::int64_t number = listed_patch(soup, name, known); number != 0 && patches != nullptr) {
-        orders[top] = with_number(*patches, number);
+    for (const Patch& patch : listed_patches(soup)) {
+        known.insert(patch.name);
+        if (patch.name == name && patches != nullptr) {
+            orders[top] = with_number(*patches, patch.number);
+        }
     }
     for (std::size_t d = 0; d < orders.size(); ++d) {
         for (const Patch& group : soup.groups[d]) {

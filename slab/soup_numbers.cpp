@@ -117,19 +117,6 @@ void join_neighbors(io::Soup& soup, const CellOfTag& cell_of) {
 
 // --- groups
 
-PatchList listed_patches(io::Soup& soup) {
-    const Numbers* given = numbers(soup.field_data, "patch_number");
-    const DataArray* names = find_array(soup.field_data, "patch_name");
-    const auto* texts = names == nullptr ? nullptr : std::get_if<std::vector<std::string>>(&names->values);
-    PatchList patches;
-    for (std::size_t i = 0; given != nullptr && texts != nullptr && i < given->size(); ++i) {
-        if ((*given)[i] > 0 && (*given)[i] <= largest_patch) {
-            patches.push_back({static_cast<PatchNumber>((*given)[i]), i < texts->size() ? (*texts)[i] : ""});
-        }
-    }
-    return patches;
-}
-
 void list_patches(io::Soup& soup, const PatchList& patches) {
     Numbers given;
     std::vector<std::string> names;
@@ -170,6 +157,20 @@ bool expressible(const Numbers& patch, const Numbers* region) {
 }
 
 } // namespace
+
+PatchList listed_patches(const io::Soup& soup) {
+    const io::DataArray* numbers = soup.find_field_data("patch_number");
+    const io::DataArray* names = soup.find_field_data("patch_name");
+    const auto* given = numbers == nullptr ? nullptr : std::get_if<Numbers>(&numbers->values);
+    const auto* texts = names == nullptr ? nullptr : std::get_if<std::vector<std::string>>(&names->values);
+    PatchList patches;
+    for (std::size_t i = 0; given != nullptr && texts != nullptr && i < given->size(); ++i) {
+        if ((*given)[i] > 0 && (*given)[i] <= largest_patch) {
+            patches.push_back({static_cast<PatchNumber>((*given)[i]), i < texts->size() ? (*texts)[i] : ""});
+        }
+    }
+    return patches;
+}
 
 void settle_numbers(io::Soup& soup) {
     for (const char* name : {"vertex_id", "track_id", "cell"}) {

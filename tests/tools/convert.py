@@ -228,6 +228,41 @@ class Operations(ConvertTest):
         self.assertIn("6 points, 3 triangles", result.out)
 
 
+class Info(ConvertTest):
+    def info(self, path):
+        result = slabhull("info", path, "--json")
+        self.assertEqual(result.code, 0, result.err)
+        return json.loads(result.out)
+
+    def test_a_hull_has_the_measures_of_its_check_in_each_format(self):
+        for text, corners in ((CIRCLE, 3), (SPHERE, 6)):
+            for path in self.hull(text):
+                sound, seen = self.check(path), self.info(path)
+                self.assertEqual(seen["kind"], "hull")
+                self.assertEqual(seen["counts"]["points"], sound["counts"]["vertices"])
+                self.assertEqual(seen["bounds"]["t"], sound["time"])
+                for ours, theirs in (("initial", "initial"), ("side", "intermediate"), ("terminating",) * 2):
+                    self.assertEqual(seen["regions"][ours]["cells"], sound["cells_by_region"][theirs])
+                    self.assertAlmostEqual(seen["regions"][ours]["measure"], sound["measure"][theirs])
+                self.assertEqual({str(g["number"]): g["cells"] for g in seen["groups"]}, sound["cells_by_patch"])
+                self.assertEqual(seen["angle"]["smallest"], sound["angle"]["smallest"])
+                histogram = seen["angle"]["histogram"]
+                self.assertEqual(sum(histogram), corners * sound["counts"]["cells"])
+                filled = [k for k, count in enumerate(histogram) if count]
+                self.assertEqual(filled[0], int(sound["angle"]["smallest"] // 10))
+                self.assertEqual(filled[-1], int(sound["angle"]["largest"] // 10))
+
+    def test_a_right_triangle_is_told_in_words(self):
+        path = self.dir / "one.off"
+        path.write_text("OFF\n3 1 0\n0 0 1\n1 0 1\n0 1 1\n3 0 1 2\n")
+        result = slabhull("info", path)
+        self.assertEqual(result.code, 0, result.err)
+        for words in ("OFF, mesh of dimension 2", "3 points, 1 triangles", "measure 0.5", "angles 45.0 to 90.0"):
+            self.assertIn(words, result.out)
+        self.assertEqual(sum(self.info(path)["angle"]["histogram"]), 3)
+        self.assertEqual(slabhull("info", self.dir / "a.xyz").code, 2)
+
+
 class Refusals(ConvertTest):
     def test_wrong_formats_and_options_are_refused_before_anything_is_read(self):
         out = self.dir / "out.vtu"

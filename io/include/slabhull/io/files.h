@@ -36,7 +36,7 @@ Soup read_mesh(const std::filesystem::path& path);
 /// precision and their numbering.
 Soup read_surface(const std::filesystem::path& path);
 /// The same, whatever the name: `extension` is ".stl", ".off", ".obj" or ".ply".
-Soup read_surface(const std::filesystem::path& path, std::string_view extension);
+Soup read_surface_as(const std::filesystem::path& path, std::string_view extension);
 /// A closed curve: a line "x y" per point, in order; a last point equal to the first is dropped; lines that
 /// start with a letter (airfoil titles) or '#' are skipped. Lines of the soup have dimension 1.
 Soup read_curve(const std::filesystem::path& path);

@@ -14,6 +14,9 @@ namespace slabhull {
 /// Throws InputError for a neighbor that does not exist.
 void settle_numbers(io::Soup& soup);
 
+/// The patches that the field data "patch_number" and "patch_name" list.
+PatchList listed_patches(const io::Soup& soup);
+
 /// "neighbors" and "cell" as element tags, for a format that has them so.
 void number_by_tags(io::Soup& soup);
 
