@@ -52,6 +52,12 @@ private:
     double lost_ = 0;
 };
 
+/// The angle of cos |cos|.
+double degrees(double s) {
+    const double cosine = std::copysign(std::sqrt(std::min(1.0, std::abs(s))), s);
+    return std::acos(cosine) * (180 / std::numbers::pi);
+}
+
 /// The extreme cosines of dihedral angles, kept as cos |cos|: it grows with the cosine and needs no square
 /// root.
 struct CosineRange {
@@ -68,12 +74,6 @@ struct CosineRange {
     }
     /// The smallest cosine belongs to the largest angle.
     AngleRange angles() const { return {degrees(largest), degrees(smallest)}; }
-
-private:
-    static double degrees(double s) {
-        const double cosine = std::copysign(std::sqrt(std::min(1.0, std::abs(s))), s);
-        return std::acos(cosine) * (180 / std::numbers::pi);
-    }
 };
 
 /// Gram matrix of the gradients of the barycentric coordinates, but for a positive factor: the adjugate of
@@ -108,21 +108,27 @@ GradientGram<D> gradient_gram(const std::array<std::array<double, N>, D + 1>& co
     return a;
 }
 
-/// cos |cos| of the angle between facets i and j: the gradients are normal to the facets, pointing inwards.
-template<int D, std::size_t N>
-CosineRange cosines(const std::array<std::array<double, N>, D + 1>& corners) {
+/// Calls use() with cos |cos| of the angle between each two facets: the gradients are normal to the facets,
+/// pointing inwards. False, perhaps after some angles, when there is a facet of measure zero.
+template<int D, std::size_t N, class Use>
+bool for_each_cosine(const std::array<std::array<double, N>, D + 1>& corners, const Use& use) {
     const GradientGram<D> a = gradient_gram<D>(corners);
-    CosineRange range;
     for (std::size_t i = 0; i <= D; ++i) {
         for (std::size_t j = i + 1; j <= D; ++j) {
             const double square = a[i][i] * a[j][j];
             if (!(square > 0)) {
-                return {-1, 1};
+                return false;
             }
-            range.add(std::clamp(-a[i][j] * std::abs(a[i][j]) / square, -1.0, 1.0));
+            use(std::clamp(-a[i][j] * std::abs(a[i][j]) / square, -1.0, 1.0));
         }
     }
-    return range;
+    return true;
+}
+
+template<int D, std::size_t N>
+CosineRange cosines(const std::array<std::array<double, N>, D + 1>& corners) {
+    CosineRange range;
+    return for_each_cosine<D>(corners, [&range](double s) { range.add(s); }) ? range : CosineRange{-1, 1};
 }
 
 template<int D>
@@ -179,6 +185,33 @@ Sums sum_by_pieces(std::size_t count, const Sums& zero, const Add& add) {
     }
     return total;
 }
+
+class AngleCounts {
+public:
+    template<int D, std::size_t N>
+    void add(const std::array<std::array<double, N>, D + 1>& corners) {
+        AngleHistogram counts{};
+        if (for_each_cosine<D>(corners, [&counts](double s) { ++counts[bin(degrees(s))]; })) {
+            add(AngleCounts{counts});
+        }
+    }
+    void add(const AngleCounts& other) {
+        for (std::size_t k = 0; k < counts_.size(); ++k) {
+            counts_[k] += other.counts_[k];
+        }
+    }
+    AngleCounts() = default;
+    const AngleHistogram& value() const { return counts_; }
+
+private:
+    explicit AngleCounts(const AngleHistogram& counts) : counts_{counts} {}
+    static std::size_t bin(double angle) {
+        constexpr double width = 180.0 / angle_bins;
+        return std::min(static_cast<std::size_t>(angle / width), angle_bins - 1);
+    }
+
+    AngleHistogram counts_{};
+};
 
 class SolidSums {
 public:
@@ -273,6 +306,15 @@ SolidMeasures measure_solid(std::span<const Point<D>> points, std::span<const Si
         .value();
 }
 
+template<int D, int N>
+AngleHistogram angle_histogram(std::span<const Point<N>> points, std::span<const Simplex<D>> cells) {
+    return sum_by_pieces(cells.size(), std::array<AngleCounts, 1>{},
+                         [&](std::size_t c, std::array<AngleCounts, 1>& to) {
+                             to[0].add<D>(corners_of<D, N>(cells[c], points));
+                         })[0]
+        .value();
+}
+
 template Point<2> simplex_normal<1>(const std::array<Point<2>, 2>&);
 template Point<3> simplex_normal<2>(const std::array<Point<3>, 3>&);
 template Point<4> simplex_normal<3>(const std::array<Point<4>, 4>&);
@@ -283,6 +325,9 @@ template AngleRange dihedral_angles<2, 2>(const std::array<Point<2>, 3>&);
 template AngleRange dihedral_angles<2, 3>(const std::array<Point<3>, 3>&);
 template AngleRange dihedral_angles<3, 3>(const std::array<Point<3>, 4>&);
 template AngleRange dihedral_angles<3, 4>(const std::array<Point<4>, 4>&);
+template AngleHistogram angle_histogram<2, 3>(std::span<const Point<3>>, std::span<const Simplex<2>>);
+template AngleHistogram angle_histogram<3, 3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
+template AngleHistogram angle_histogram<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 template Measures<2> measure_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
 template Measures<3> measure_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 template std::vector<Measures<2>> measure_groups<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,

@@ -113,7 +113,18 @@ void order_along_curve(CapMesh<D>& mesh, std::size_t fixed_points) {
     renumber(mesh.neighbors, inverse(order));
 }
 
+template<int D>
+Array<Index> curve_order(std::span<const Point<D>> points) {
+    if (points.empty()) {
+        return {};
+    }
+    const ZOrder<D> curve{points};
+    return sorted_along_curve(points.size(), [&](std::size_t v) { return curve(points[v]); });
+}
+
 template void order_along_curve<2>(CapMesh<2>&, std::size_t);
 template void order_along_curve<3>(CapMesh<3>&, std::size_t);
+template Array<Index> curve_order<2>(std::span<const Point<2>>);
+template Array<Index> curve_order<3>(std::span<const Point<3>>);
 
 } // namespace slabhull

@@ -7,21 +7,23 @@
 
 namespace slabhull::io {
 
-std::vector<MeshColumns::Group> groups_of(const MeshColumns& mesh, const char* writer) {
-    if (mesh.groups.empty()) {
-        return {{0, mesh.cells.rows(), 0, ""}};
+std::vector<MeshColumns::Group> checked_groups(const Column<std::int64_t>& cells,
+                                               const std::vector<MeshColumns::Group>& groups,
+                                               const char* writer) {
+    if (groups.empty()) {
+        return {{0, cells.rows(), 0, ""}};
     }
     std::size_t end = 0;
-    for (const MeshColumns::Group& group : mesh.groups) {
+    for (const MeshColumns::Group& group : groups) {
         if (group.begin != end || group.end < group.begin) {
             throw std::invalid_argument{fmt::format("{}: the groups must follow one another", writer)};
         }
         end = group.end;
     }
-    if (end != mesh.cells.rows()) {
+    if (end != cells.rows()) {
         throw std::invalid_argument{fmt::format("{}: the groups must hold all cells", writer)};
     }
-    return mesh.groups;
+    return groups;
 }
 
 void list_groups_in_use(Soup& soup) {

@@ -9,7 +9,12 @@ namespace slabhull::io {
 
 /// The groups of a mesh to be written; one without number or name where none are given. Throws
 /// std::invalid_argument when they do not hold all cells in order; `writer` names the function at fault.
-std::vector<MeshColumns::Group> groups_of(const MeshColumns& mesh, const char* writer);
+std::vector<MeshColumns::Group> checked_groups(const Column<std::int64_t>& cells,
+                                               const std::vector<MeshColumns::Group>& groups,
+                                               const char* writer);
+inline std::vector<MeshColumns::Group> groups_of(const MeshColumns& mesh, const char* writer) {
+    return checked_groups(mesh.cells, mesh.groups, writer);
+}
 
 /// Lists the groups that the simplices of a soup are in, without names.
 void list_groups_in_use(Soup& soup);

@@ -21,9 +21,9 @@ constexpr int gmsh_simplex_dimension(int type) {
     }
 }
 
-/// Gmsh's element type number of a line, triangle or tetrahedron.
+/// Gmsh's element type number of a point, line, triangle or tetrahedron.
 constexpr int gmsh_simplex_type(int dimension) {
-    return dimension == 1 ? 1 : dimension == 2 ? 2 : 4;
+    return dimension == 0 ? 15 : dimension == 1 ? 1 : dimension == 2 ? 2 : 4;
 }
 
 /// What the user calls an element type that we refuse.

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace slabhull::io {
 
@@ -46,10 +47,53 @@ Box box_of(const Column<double>& points) {
     return whole;
 }
 
+/// The cells of one dimension.
+struct Part {
+    using Group = MeshColumns::Group;
+
+    int dimension;
+    const Column<std::int64_t>& cells;
+    std::vector<Group> groups;
+    std::vector<PatchNumber> entities; ///< the number of each one's physical group; groups may share one
+    std::size_t tags_before = 0;       ///< element tags used before this part's
+
+    Part(int its_dimension, const Column<std::int64_t>& its_cells, const std::vector<Group>& given)
+        : dimension{its_dimension}, cells{its_cells}, groups{checked_groups(its_cells, given, "write_msh")} {
+        for (const Group& group : groups) {
+            if (std::find(entities.begin(), entities.end(), group.number) == entities.end()) {
+                entities.push_back(group.number);
+            }
+        }
+    }
+
+    std::size_t entity_of(const Group& group) const {
+        const auto place = std::find(entities.begin(), entities.end(), group.number);
+        return 1 + static_cast<std::size_t>(place - entities.begin());
+    }
+};
+
+/// The name of a group as MSH has it, in double quotes, for which there is no escape.
+const std::string& quotable(const std::string& name) {
+    if (name.find_first_of("\"\n\r") != std::string::npos) {
+        throw UsageError{fmt::format("MSH has no place for a double quote or a line end in the name of a "
+                                     "group, as in {}",
+                                     name)};
+    }
+    return name;
+}
+
 class MshWriter {
 public:
-    MshWriter(AtomicFile& file, const MeshColumns& mesh)
-        : mesh_{mesh}, groups_{groups_of(mesh, "write_msh")}, entities_{entities_of(groups_)}, file_{file} {}
+    MshWriter(AtomicFile& file, const MeshColumns& mesh) : mesh_{mesh}, file_{file} {
+        parts_.emplace_back(mesh.dimension, mesh.cells, mesh.groups);
+        for (const MeshColumns::Part& part : mesh.lower) {
+            parts_.emplace_back(part.dimension, part.cells, part.groups);
+        }
+        for (Part& part : parts_) {
+            part.tags_before = elements_;
+            elements_ += part.cells.rows();
+        }
+    }
 
     void write() {
         write_format();
@@ -68,22 +112,6 @@ public:
 private:
     using Group = MeshColumns::Group;
 
-    /// The number of each entity's physical group; groups with the same number share an entity.
-    static std::vector<PatchNumber> entities_of(const std::vector<Group>& groups) {
-        std::vector<PatchNumber> entities;
-        for (const Group& group : groups) {
-            if (std::find(entities.begin(), entities.end(), group.number) == entities.end()) {
-                entities.push_back(group.number);
-            }
-        }
-        return entities;
-    }
-
-    std::size_t entity_of(const Group& group) const {
-        return 1 + static_cast<std::size_t>(std::find(entities_.begin(), entities_.end(), group.number) -
-                                            entities_.begin());
-    }
-
     template<class T>
     void put_value(T value) {
         file_.write(&value, sizeof value);
@@ -98,11 +126,15 @@ private:
     }
 
     void write_physical_names() {
-        std::set<PatchNumber> named;
+        std::set<std::pair<int, PatchNumber>> named;
         std::string lines;
-        for (const Group& group : groups_) {
-            if (group.number > 0 && !group.name.empty() && named.insert(group.number).second) {
-                lines += fmt::format("{} {} \"{}\"\n", mesh_.dimension, group.number, group.name);
+        for (const Part& part : parts_) {
+            for (const Group& group : part.groups) {
+                if (group.number > 0 && !group.name.empty() &&
+                    named.emplace(part.dimension, group.number).second) {
+                    lines +=
+                        fmt::format("{} {} \"{}\"\n", part.dimension, group.number, quotable(group.name));
+                }
             }
         }
         if (!named.empty()) {
@@ -110,27 +142,44 @@ private:
         }
     }
 
-    /// The discrete entities, numbered from 1, in the box of the whole mesh.
+    /// The discrete entities, numbered from 1 in each dimension, in the box of the whole mesh.
     void write_entities() {
         file_.write("$Entities\n");
         for (int dimension = 0; dimension <= 3; ++dimension) {
-            put_size(dimension == mesh_.dimension ? entities_.size() : 0);
+            const Part* part = part_of(dimension);
+            put_size(part != nullptr ? part->entities.size() : 0);
         }
         const Box box = box_of(mesh_.points);
-        for (std::size_t i = 0; i < entities_.size(); ++i) {
-            put_int(i + 1);
-            put_value(box);
-            put_size(entities_[i] > 0 ? 1 : 0);
-            if (entities_[i] > 0) {
-                put_value(entities_[i]);
+        for (int dimension = 0; dimension <= 3; ++dimension) {
+            if (const Part* part = part_of(dimension)) {
+                write_entities(*part, box);
             }
-            put_size(0); // no bounding entities
         }
         file_.write("\n$EndEntities\n");
     }
 
-    void put_block_head(std::size_t entity, std::size_t third, std::size_t count) {
-        put_int(static_cast<std::size_t>(mesh_.dimension));
+    const Part* part_of(int dimension) const {
+        const auto found = std::find_if(parts_.begin(), parts_.end(),
+                                        [=](const Part& part) { return part.dimension == dimension; });
+        return found == parts_.end() ? nullptr : &*found;
+    }
+
+    void write_entities(const Part& part, const Box& box) {
+        for (std::size_t i = 0; i < part.entities.size(); ++i) {
+            put_int(i + 1);
+            part.dimension == 0 ? put_value(box.min) : put_value(box);
+            put_size(part.entities[i] > 0 ? 1 : 0);
+            if (part.entities[i] > 0) {
+                put_value(part.entities[i]);
+            }
+            if (part.dimension > 0) {
+                put_size(0); // no bounding entities
+            }
+        }
+    }
+
+    void put_block_head(int dimension, std::size_t entity, std::size_t third, std::size_t count) {
+        put_int(static_cast<std::size_t>(dimension));
         put_int(entity);
         put_int(third);
         put_size(count);
@@ -148,7 +197,7 @@ private:
         const std::size_t count = mesh_.points.rows();
         file_.write("$Nodes\n");
         put_section_head(1, count);
-        put_block_head(1, 0, count);
+        put_block_head(mesh_.dimension, 1, 0, count);
         stream_rows(file_, count, sizeof(std::uint64_t), [](std::size_t begin, std::size_t end, char* out) {
             for (std::size_t tag = begin + 1; tag <= end; ++tag) {
                 put(out, static_cast<std::uint64_t>(tag));
@@ -160,26 +209,32 @@ private:
 
     void write_elements() {
         const auto filled = [](const Group& group) { return group.end > group.begin; };
+        std::ptrdiff_t blocks = 0;
+        for (const Part& part : parts_) {
+            blocks += std::count_if(part.groups.begin(), part.groups.end(), filled);
+        }
         file_.write("$Elements\n");
-        put_section_head(static_cast<std::size_t>(std::count_if(groups_.begin(), groups_.end(), filled)),
-                         mesh_.cells.rows());
-        for (const Group& group : groups_) {
-            if (filled(group)) {
-                write_block(entity_of(group), group);
+        put_section_head(static_cast<std::size_t>(blocks), elements_);
+        for (const Part& part : parts_) {
+            for (const Group& group : part.groups) {
+                if (filled(group)) {
+                    write_block(part, group);
+                }
             }
         }
         file_.write("\n$EndElements\n");
     }
 
-    void write_block(std::size_t entity, const Group& group) {
-        const std::size_t corners = static_cast<std::size_t>(mesh_.dimension) + 1;
-        const auto type = static_cast<std::size_t>(gmsh_simplex_type(mesh_.dimension));
-        put_block_head(entity, type, group.end - group.begin);
+    void write_block(const Part& part, const Group& group) {
+        const std::size_t corners = static_cast<std::size_t>(part.dimension) + 1;
+        const auto type = static_cast<std::size_t>(gmsh_simplex_type(part.dimension));
+        const std::size_t tag = part.tags_before + 1;
+        put_block_head(part.dimension, part.entity_of(group), type, group.end - group.begin);
         stream_rows(file_, group.end - group.begin, (corners + 1) * sizeof(std::uint64_t),
                     [&](std::size_t begin, std::size_t end, char* out) {
-                        for_each_row(mesh_.cells, group.begin + begin, group.begin + end,
+                        for_each_row(part.cells, group.begin + begin, group.begin + end,
                                      [&](std::size_t cell, const std::int64_t* vertices) {
-                                         put(out, static_cast<std::uint64_t>(cell + 1));
+                                         put(out, static_cast<std::uint64_t>(cell + tag));
                                          for (std::size_t k = 0; k < corners; ++k) {
                                              put(out, static_cast<std::uint64_t>(vertices[k] + 1));
                                          }
@@ -215,8 +270,8 @@ private:
     }
 
     const MeshColumns& mesh_;
-    std::vector<Group> groups_;
-    std::vector<PatchNumber> entities_;
+    std::vector<Part> parts_; ///< the cells first, so that their tags are their numbers from 1
+    std::size_t elements_ = 0;
     AtomicFile& file_;
 };
 

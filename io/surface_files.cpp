@@ -110,8 +110,7 @@ struct SurfaceFormat {
     OpenMesh::IO::BaseReader& reader;
 };
 
-SurfaceFormat format_of(const std::filesystem::path& path) {
-    const std::string extension = lower_extension(path);
+SurfaceFormat format_of(const std::filesystem::path& path, std::string_view extension) {
     if (extension == ".stl") {
         return {guard_stl, OpenMesh::IO::STLReader()};
     }
@@ -151,7 +150,11 @@ bool is_as_guarded(const SoupImporter& found, const GuardedSurface& guarded) {
 } // namespace
 
 Soup read_surface(const std::filesystem::path& path) {
-    const SurfaceFormat format = format_of(path);
+    return read_surface_as(path, lower_extension(path));
+}
+
+Soup read_surface_as(const std::filesystem::path& path, std::string_view extension) {
+    const SurfaceFormat format = format_of(path, extension);
     GuardedSurface guarded;
     {
         const Array<char> bytes = read_bytes(path);

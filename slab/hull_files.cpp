@@ -381,10 +381,14 @@ HullArrays<D> hull_of_soup(const io::Soup& soup) {
     } else {
         read_groups(soup, hull);
         read_msh_neighbors(soup, hull);
+        hull.layer = of_cells("layer", 1);
     }
     hull.vertex_id = of_points("vertex_id");
     hull.track_id = of_points("track_id");
     hull.cell_of_vertex = of_points("cell");
+    if (soup.find_cell_data("neighbor_0") != nullptr) { // an MSH has element tags there, too
+        std::for_each(hull.cell_of_vertex.begin(), hull.cell_of_vertex.end(), [](auto& cell) { --cell; });
+    }
     return hull;
 }
 

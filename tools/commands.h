@@ -8,6 +8,8 @@ namespace slabhull::tools {
 /// Each adds a subcommand to the program. What it does goes to its callback; its exit code to `exit_code`.
 void add_build(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
+void add_convert(CLI::App& program, int& exit_code);
+void add_info(CLI::App& program, int& exit_code);
 void add_slice(CLI::App& program, int& exit_code);
 
 } // namespace slabhull::tools

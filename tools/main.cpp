@@ -28,6 +28,8 @@ int main(int argc, char** argv) {
     int exit_code = 0;
     slabhull::tools::add_build(program, exit_code);
     slabhull::tools::add_check(program, exit_code);
+    slabhull::tools::add_convert(program, exit_code);
+    slabhull::tools::add_info(program, exit_code);
     slabhull::tools::add_slice(program, exit_code);
     try {
         program.parse(argc, argv);

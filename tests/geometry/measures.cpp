@@ -288,3 +288,20 @@ TEST_CASE("the smallest signed measure is that of the one inverted simplex") {
     CHECK(measure_solid<2>(points, Array<Simplex<2>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 2}}).smallest == -1);
     CHECK(measure_solid<2>(points, Array<Simplex<2>>{}).smallest == std::numeric_limits<double>::infinity());
 }
+
+TEST_CASE("The histogram of angles counts each angle of each simplex, in its bin", "[geometry]") {
+    const std::vector<Point<3>> corner{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const std::vector<Simplex<3>> cells{{0, 1, 2, 3}};
+    AngleHistogram expected{};
+    expected[9] = 3; // right angles at the edges of the corner
+    expected[5] = 3; // acos(1 / sqrt(3)) = 54.7 degrees at the others
+    CHECK(angle_histogram<3, 3>(corner, cells) == expected);
+
+    const std::vector<Point<3>> flat{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {8, 0, 0}};
+    const std::vector<Simplex<2>> triangles{{0, 1, 2}, {0, 1, 3}}; // the second one has angles 0, 0 and 180
+    AngleHistogram of_triangles{};
+    of_triangles[9] = of_triangles[3] = of_triangles[5] = 1;
+    of_triangles[0] = 2;
+    of_triangles[17] = 1;
+    CHECK(angle_histogram<2, 3>(flat, triangles) == of_triangles);
+}

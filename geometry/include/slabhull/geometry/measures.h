@@ -4,6 +4,7 @@
 #include "slabhull/core/point.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +28,14 @@ struct AngleRange {
 /// near 0 and 180. A simplex with a facet of measure zero has no dihedral angle there: its range is 0 to 180.
 template<int D, int N>
 AngleRange dihedral_angles(const std::array<Point<N>, D + 1>& corners);
+
+/// How many dihedral angles lie in [0, 10), [10, 20) .. [170, 180] degrees.
+inline constexpr std::size_t angle_bins = 18;
+using AngleHistogram = std::array<std::size_t, angle_bins>;
+/// All dihedral angles of simplices (D = 2: the angles) but of those with a facet of measure zero.
+/// For (D, N) = (2, 3), (3, 3), (3, 4).
+template<int D, int N>
+AngleHistogram angle_histogram(std::span<const Point<N>> points, std::span<const Simplex<D>> cells);
 
 /// The corners of a cell.
 template<int D, int N>
@@ -77,6 +86,9 @@ extern template AngleRange dihedral_angles<2, 2>(const std::array<Point<2>, 3>&)
 extern template AngleRange dihedral_angles<2, 3>(const std::array<Point<3>, 3>&);
 extern template AngleRange dihedral_angles<3, 3>(const std::array<Point<3>, 4>&);
 extern template AngleRange dihedral_angles<3, 4>(const std::array<Point<4>, 4>&);
+extern template AngleHistogram angle_histogram<2, 3>(std::span<const Point<3>>, std::span<const Simplex<2>>);
+extern template AngleHistogram angle_histogram<3, 3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
+extern template AngleHistogram angle_histogram<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 extern template Measures<2> measure_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
 extern template Measures<3> measure_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 extern template std::vector<Measures<2>> measure_groups<2>(std::span<const Point<3>>,

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace slabhull::io {
 
@@ -65,6 +66,8 @@ Soup read_mfem(const std::filesystem::path& path);
 /// precision and welded where equal; facets that collapse by it are left out. The others keep double
 /// precision and their numbering.
 Soup read_surface(const std::filesystem::path& path);
+/// The same, whatever the name: `extension` is ".stl", ".off", ".obj" or ".ply".
+Soup read_surface_as(const std::filesystem::path& path, std::string_view extension);
 /// A closed curve: a line "x y" per point, in order; a last point equal to the first is dropped; lines that
 /// start with a letter (airfoil titles) or '#' are skipped. Lines of the soup have dimension 1.
 Soup read_curve(const std::filesystem::path& path);

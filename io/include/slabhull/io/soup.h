@@ -82,6 +82,19 @@ struct MeshColumns {
         std::string name;
     };
     std::vector<Group> groups;
+
+    /// Simplices of a lower dimension, such as those of a boundary, in groups of their own.
+    struct Part {
+        int dimension = 0;          ///< 0 .. that of the mesh - 1
+        Column<std::int64_t> cells; ///< dimension + 1 components, from 0
+        std::vector<Group> groups;
+    };
+    std::vector<Part> lower; ///< by descending dimension; most formats have no place for them
 };
+
+/// A soup as something to be written, a view of its arrays: it must outlive the columns. Only field data are
+/// copied. The cells are those of top_dimension(); each run of cells with one physical group is a group,
+/// groups without cells are listed as well. Texts over points or cells are left out.
+MeshColumns columns_of(const Soup& soup);
 
 } // namespace slabhull::io

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/io/soup.h"
+
+#include <cstddef>
+#include <string>
+
+namespace slabhull {
+
+// What `slabhull convert` does to a mesh between reading and writing. Data, groups and the file's own numbers
+// go with the points and cells that stay, bit for bit. "neighbors" (-1 where a cell is gone) and "cell" stay
+// right; they must count from 0, as settle_numbers() leaves them. Cost: near-linear, one further copy of what
+// changes.
+
+/// The part of a hull with that number in "region" or, in a soup with groups, their names: 0 initial, 1 side,
+/// 2 terminating; and the points that it uses. Throws UsageError when the soup is no hull with regions,
+/// InputError when nothing would be left.
+void select_region(io::Soup& soup, int region);
+
+/// The simplices, of whatever dimension, in the group or on the patch of that name, and the points that they
+/// use. Throws UsageError naming the patches that there are.
+void select_patch(io::Soup& soup, const std::string& name);
+
+/// Facets of triangles or tetrahedra that only one of them has, oriented outward (as the cells are oriented),
+/// and their points. Each has its cell's data, but for "neighbors", and the group of the same facet in the
+/// soup or, where the soup has no simplices of that dimension, its cell's. Throws UsageError for other soups
+/// and InputError when there is no boundary or a cell repeats a vertex.
+void extract_boundary(io::Soup& soup);
+
+/// How much was welded.
+struct Welded {
+    std::size_t points = 0; ///< that are gone
+    std::size_t cells = 0;  ///< of all dimensions, that collapsed and are gone
+};
+/// Each point that lies within `tolerance` (in space-time for a hull, at least 0) of an earlier one that
+/// stays is replaced by it; the nearest is not sought. Neighbors are found anew.
+Welded weld(io::Soup& soup, double tolerance);
+
+/// Renumbers points and cells along a space-filling curve, by their places in space (D = 2: in space-time).
+void renumber_along_curve(io::Soup& soup);
+
+/// Multiplies space by `factor`; time stays.
+void scale(io::Soup& soup, double factor);
+
+/// Turns the orientation of all simplices round by swapping their first two vertices.
+void reverse(io::Soup& soup);
+
+/// Whether the last of the three coordinates of a soup's points is a hull's time: triangles with groups of
+/// regions, or with a point array "t" equal to it.
+bool has_time_as_coordinate(const io::Soup& soup);
+
+} // namespace slabhull
