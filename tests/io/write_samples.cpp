@@ -35,7 +35,7 @@ int main(int argument_count, char** arguments) {
             slabhull::io::write_tetgen(folder / fmt::format("grid{}", dimension), grid.columns());
         }
     }
-    const specimens::Grid surface{2, 7};
+    const specimens::Grid surface{2, 110}; // that of grid2.vtu
     for (const char* name : {"grid2.stl", "grid2.off", "grid2.obj", "grid2.ply"}) {
         slabhull::io::write_surface(folder / name, surface.columns());
     }

@@ -270,7 +270,7 @@ class Refusals(ConvertTest):
                 (["a.xyz", "--from"], ["a.xyz", out]),
                 (["a.xyz", "--to"], ["none.msh", self.dir / "a.xyz"]),
                 (["--to", "nothing"], ["none.msh", out, "--to", "nothing"]),
-                (["OFF is not written"], ["none.msh", self.dir / "a.data", "--to", "off"]),
+                (["TetGen is not written"], ["none.msh", self.dir / "a.data", "--to", "tetgen"]),
                 (["--weld"], ["none.msh", out, "--weld=-1"]),
                 (["--scale"], ["none.msh", out, "--scale", "0"]),
                 (["--region"], ["none.msh", out, "--region", "top"]),
