@@ -119,6 +119,14 @@ void AtomicFile::fail(const char* doing) const {
     throw OutputError(fmt::format("{}: {}: {}", path_.string(), doing, std::strerror(errno)));
 }
 
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure) {
+        throw OutputError(fmt::format("{}: {}", folder.string(), failure.message()));
+    }
+}
+
 void remove_stale_parts(const std::filesystem::path& folder) {
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator{folder, ignored}) {

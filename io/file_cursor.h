@@ -77,6 +77,12 @@ public:
     /// Throws InputError: file, place, text.
     [[noreturn]] void fail(const std::string& text) const { fail_at(offset_, text); }
     [[noreturn]] void fail_at(std::size_t offset, const std::string& text) const;
+    /// fail() unless the condition holds. Not for each entity of a file: the text is made in any case.
+    void require(bool condition, const std::string& text) const {
+        if (!condition) {
+            fail(text);
+        }
+    }
 
 private:
     [[noreturn]] void fail_word(std::string_view word, const char* what) const;

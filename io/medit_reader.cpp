@@ -52,51 +52,45 @@ public:
         read_head();
         while (read_section()) {
         }
-        require(seen_.contains("Vertices"), "there is no section Vertices");
+        in_.require(seen_.contains("Vertices"), "there is no section Vertices");
         list_groups_in_use(soup_);
         return std::move(soup_);
     }
 
 private:
-    void require(bool condition, const std::string& text) const {
-        if (!condition) {
-            in_.fail(text);
-        }
-    }
-
     std::string keyword() {
         skip_comments(in_);
         return std::string{in_.word()};
     }
 
     void read_head() {
-        require(keyword() == "MeshVersionFormatted",
-                "this is no Medit file: MeshVersionFormatted was expected");
+        in_.require(keyword() == "MeshVersionFormatted",
+                    "this is no Medit file: MeshVersionFormatted was expected");
         skip_comments(in_);
         const int version = in_.parsed<int>("a version from 1 to 4");
-        require(version >= 1 && version <= 4, "a version from 1 to 4 was expected");
-        require(keyword() == "Dimension", "Dimension was expected");
+        in_.require(version >= 1 && version <= 4, "a version from 1 to 4 was expected");
+        in_.require(keyword() == "Dimension", "Dimension was expected");
         skip_comments(in_);
         dimension_ = in_.parsed<std::size_t>("a dimension");
-        require(dimension_ >= 2 && dimension_ <= 4, "dimension 2, 3 or 4 was expected");
+        in_.require(dimension_ >= 2 && dimension_ <= 4, "dimension 2, 3 or 4 was expected");
     }
 
     /// False at the end.
     bool read_section() {
         const std::string name = keyword();
         constexpr std::size_t shown = 40;
-        require(!name.empty(), "the file ends without End");
+        in_.require(!name.empty(), "the file ends without End");
         if (name == "End") {
             return false;
         }
-        require(seen_.insert(name).second, name.substr(0, shown) + " appears twice");
+        in_.require(seen_.insert(name).second, name.substr(0, shown) + " appears twice");
         if (name == "Vertices") {
             read_vertices();
         } else if (const auto dimension = simplex_dimension(name)) {
             read_simplices(*dimension, name);
         } else if (std::find(refused_sections.begin(), refused_sections.end(), name) !=
                    refused_sections.end()) {
-            require(count_of(name.c_str(), 1) == 0, name + " are not read; only straight simplices are");
+            in_.require(count_of(name.c_str(), 1) == 0, name + " are not read; only straight simplices are");
         } else {
             pass(name.substr(0, shown));
         }
@@ -121,7 +115,7 @@ private:
     void pass(const std::string& name) {
         const auto section = std::find_if(passed_sections.begin(), passed_sections.end(),
                                           [&](const PassedSection& one) { return one.name == name; });
-        require(section != passed_sections.end(), "\"" + name + "\" is no keyword that is known here");
+        in_.require(section != passed_sections.end(), "\"" + name + "\" is no keyword that is known here");
         const std::size_t width = section->numbers > 0 ? section->numbers : dimension_;
         const std::size_t rows = count_of(name.c_str(), width);
         for (std::size_t i = 0; i < rows * width; ++i) {
@@ -165,7 +159,7 @@ private:
     }
 
     void read_simplices(std::size_t dimension, const std::string& name) {
-        require(seen_.contains("Vertices"), "Vertices were expected before " + name);
+        in_.require(seen_.contains("Vertices"), "Vertices were expected before " + name);
         SimplexBlock& block = soup_.simplices[dimension];
         const std::size_t count = count_of(name.c_str(), dimension + 2);
         checked_index(count, name.c_str());

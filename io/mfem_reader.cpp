@@ -21,9 +21,9 @@ public:
 
     Soup read() {
         const std::string_view head = in_.line();
-        require(head.starts_with("MFEM "), "this is no MFEM mesh: \"MFEM mesh v1.0\" was expected");
-        require(head.substr(0, head.find_last_not_of(" \t") + 1) == "MFEM mesh v1.0",
-                "only \"MFEM mesh v1.0\" is read; save the mesh without curves, refinement and NURBS");
+        in_.require(head.starts_with("MFEM "), "this is no MFEM mesh: \"MFEM mesh v1.0\" was expected");
+        in_.require(head.substr(0, head.find_last_not_of(" \t") + 1) == "MFEM mesh v1.0",
+                    "only \"MFEM mesh v1.0\" is read; save the mesh without curves, refinement and NURBS");
         read_dimension();
         read_elements("elements", dimension_);
         read_elements("boundary", dimension_ - 1);
@@ -35,22 +35,16 @@ public:
     }
 
 private:
-    void require(bool condition, const std::string& text) const {
-        if (!condition) {
-            in_.fail(text);
-        }
-    }
-
     void expect(const std::string& keyword) {
         skip_comments(in_);
-        require(in_.word() == keyword, fmt::format("\"{}\" was expected", keyword));
+        in_.require(in_.word() == keyword, fmt::format("\"{}\" was expected", keyword));
         skip_comments(in_);
     }
 
     void read_dimension() {
         expect("dimension");
         dimension_ = in_.parsed<int>("a dimension");
-        require(dimension_ >= 1 && dimension_ <= 3, "dimension 1, 2 or 3 was expected");
+        in_.require(dimension_ >= 1 && dimension_ <= 3, "dimension 1, 2 or 3 was expected");
     }
 
     void read_elements(const std::string& section, int dimension) {
@@ -66,13 +60,16 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             skip_comments(in_);
             block.physical[i] = in_.parsed<std::int32_t>("an attribute");
-            require(block.physical[i] > 0,
-                    fmt::format("{} number {} has the attribute {}, which is not positive", section, i,
-                                block.physical[i]));
+            if (!(block.physical[i] > 0)) {
+                in_.fail(fmt::format("{} number {} has the attribute {}, which is not positive", section, i,
+                                     block.physical[i]));
+            }
             const int type = in_.parsed<int>("a geometry type");
-            require(type == mfem_simplex_type(dimension),
+            if (type != mfem_simplex_type(dimension)) {
+                in_.fail(
                     fmt::format("{} number {} has the geometry type {}; in dimension {} only type {} is read",
                                 section, i, type, dimension, mfem_simplex_type(dimension)));
+            }
             in_.numbers(block.vertices.data() + i * corners, corners, "a vertex's number");
         }
     }
@@ -81,10 +78,10 @@ private:
         expect("vertices");
         const auto claimed = in_.parsed<std::uint64_t>("a count");
         skip_comments(in_);
-        require(!in_.rest().starts_with("nodes"), "curved meshes (\"nodes\") are not read");
+        in_.require(!in_.rest().starts_with("nodes"), "curved meshes (\"nodes\") are not read");
         const auto width = in_.parsed<std::size_t>("the number of coordinates");
-        require(width >= static_cast<std::size_t>(dimension_) && width <= 3,
-                fmt::format("{} to 3 coordinates were expected", dimension_));
+        in_.require(width >= static_cast<std::size_t>(dimension_) && width <= 3,
+                    fmt::format("{} to 3 coordinates were expected", dimension_));
         const std::size_t count = in_.plausible(claimed, 2 * width - 1, "vertices");
         checked_index(count, "vertices");
         soup_.points.assign(count, Point<3>{});
@@ -97,9 +94,9 @@ private:
                 }
             }
         }
-        require(in_.remaining() > 0, "the last line does not end; the file seems to be cut short");
+        in_.require(in_.remaining() > 0, "the last line does not end; the file seems to be cut short");
         skip_comments(in_);
-        require(in_.at_end(), "the end of the file was expected");
+        in_.require(in_.at_end(), "the end of the file was expected");
     }
 
     /// The vertices come last, so that only now their numbers can be judged.

@@ -64,9 +64,9 @@ public:
         while (!in_.at_end()) {
             read_section();
         }
-        require(points_read_, "there is no section POINTS");
-        require(!cells_.corners.empty(), "there are no cells");
-        require(cells_.types.size() == cells_.corners.size(), "there is no section CELL_TYPES");
+        in_.require(points_read_, "there is no section POINTS");
+        in_.require(!cells_.corners.empty(), "there are no cells");
+        in_.require(cells_.types.size() == cells_.corners.size(), "there is no section CELL_TYPES");
         sort_cells();
         return std::move(soup_);
     }
@@ -74,27 +74,21 @@ public:
 private:
     enum class Dataset { unknown, grid, surface };
 
-    void require(bool condition, const std::string& text) const {
-        if (!condition) {
-            in_.fail(text);
-        }
-    }
-
     // --- head ---
 
     void read_head() {
         const std::string first = lower(in_.line());
         const std::string mark = "# vtk datafile version ";
-        require(first.starts_with(mark), "this is no VTK file: \"# vtk DataFile Version\" was expected");
+        in_.require(first.starts_with(mark), "this is no VTK file: \"# vtk DataFile Version\" was expected");
         const std::string version = first.substr(mark.size());
         const int major = version.empty() || version[0] < '1' || version[0] > '9' ? 0 : version[0] - '0';
-        require(major >= 1 && major <= 5,
-                fmt::format("VTK file version {} is not read; save it as version 5.1 or older",
-                            version.substr(0, 20)));
+        in_.require(major >= 1 && major <= 5,
+                    fmt::format("VTK file version {} is not read; save it as version 5.1 or older",
+                                version.substr(0, 20)));
         cells_by_offsets_ = major >= 5;
         in_.line(); // the title
         const std::string encoding = lower(in_.word());
-        require(encoding == "ascii" || encoding == "binary", "ASCII or BINARY was expected");
+        in_.require(encoding == "ascii" || encoding == "binary", "ASCII or BINARY was expected");
         in_.line();
         in_.set_binary(encoding == "binary");
     }
@@ -114,17 +108,17 @@ private:
         } else if (rows_) {
             read_attribute(name);
         } else {
-            require(dataset_ != Dataset::unknown, "DATASET was expected");
+            in_.require(dataset_ != Dataset::unknown, "DATASET was expected");
             read_geometry(name);
         }
     }
 
     void read_dataset() {
-        require(dataset_ == Dataset::unknown, "DATASET appears twice");
+        in_.require(dataset_ == Dataset::unknown, "DATASET appears twice");
         const std::string type = lower(in_.word());
-        require(type == "unstructured_grid" || type == "polydata",
-                fmt::format("a DATASET of type UNSTRUCTURED_GRID or POLYDATA was expected, not \"{}\"",
-                            type.substr(0, 40)));
+        in_.require(type == "unstructured_grid" || type == "polydata",
+                    fmt::format("a DATASET of type UNSTRUCTURED_GRID or POLYDATA was expected, not \"{}\"",
+                                type.substr(0, 40)));
         dataset_ = type == "polydata" ? Dataset::surface : Dataset::grid;
     }
 
@@ -134,14 +128,14 @@ private:
         if (name == "points") {
             read_points();
         } else if (name == "cells" && !surface) {
-            require(cells_.corners.empty(), "CELLS appears twice");
+            in_.require(cells_.corners.empty(), "CELLS appears twice");
             read_cells();
         } else if (name == "cell_types" && !surface) {
             read_types();
         } else if (surface && (name == "vertices" || name == "lines" || name == "polygons")) {
             read_surface_cells(name == "vertices" ? 1 : name == "lines" ? 3 : 5);
         } else {
-            require(name != "triangle_strips", "triangle strips are not read; save them as triangles");
+            in_.require(name != "triangle_strips", "triangle strips are not read; save them as triangles");
             in_.fail(fmt::format("\"{}\" is no section of this kind of VTK file", name.substr(0, 40)));
         }
     }
@@ -202,7 +196,7 @@ private:
                 one = converted<T>(value<S>(what), what);
             }
         });
-        require(known, fmt::format("{}: the type \"{}\" is not read", what, type.substr(0, 40)));
+        in_.require(known, fmt::format("{}: the type \"{}\" is not read", what, type.substr(0, 40)));
         return result;
     }
 
@@ -221,15 +215,15 @@ private:
     // --- mesh ---
 
     void read_points() {
-        require(!points_read_, "POINTS appears twice");
+        in_.require(!points_read_, "POINTS appears twice");
         const auto claimed = in_.parsed<std::uint64_t>("the count of points");
         const std::string type = lower(in_.word());
         in_.line();
         const Array<double> x = values<double>(type, claimed, 3, "points");
         const auto bad =
             std::find_if_not(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
-        require(bad == x.end(),
-                fmt::format("point {} has a coordinate that is not a finite number", (bad - x.begin()) / 3));
+        in_.require(bad == x.end(), fmt::format("point {} has a coordinate that is not a finite number",
+                                                (bad - x.begin()) / 3));
         soup_.points.resize(checked_index(x.size() / 3, "points"));
         if (!x.empty()) {
             std::memcpy(soup_.points.data(), x.data(), x.size() * sizeof(double));
@@ -238,7 +232,7 @@ private:
     }
 
     void read_cells() {
-        require(points_read_, "POINTS was expected before the cells");
+        in_.require(points_read_, "POINTS was expected before the cells");
         const auto first = in_.parsed<std::uint64_t>("a count of cells");
         const auto size = in_.parsed<std::uint64_t>("a count of vertices");
         in_.line();
@@ -251,7 +245,7 @@ private:
     /// Up to version 4: each cell's number of vertices and the vertices.
     void read_counted_cells(std::uint64_t claimed, std::uint64_t size) {
         const std::size_t total = counted(size, 1, sizeof(std::int32_t), "values of cells");
-        require(claimed <= total, fmt::format("{} cells are claimed in {} values", claimed, size));
+        in_.require(claimed <= total, fmt::format("{} cells are claimed in {} values", claimed, size));
         const auto cells = static_cast<std::size_t>(claimed);
         cells_.corners.reserve(cells_.corners.size() + cells);
         cells_.vertices.reserve(cells_.vertices.size() + total - cells);
@@ -269,14 +263,14 @@ private:
                 add_vertex(value<std::int32_t>("a vertex"), cell);
             }
         }
-        require(left == 0, fmt::format("{} values are claimed, {} more than the cells have", size, left));
+        in_.require(left == 0, fmt::format("{} values are claimed, {} more than the cells have", size, left));
     }
 
     /// Since version 5: where each cell begins among the vertices of all, then these.
     void read_offset_cells(std::uint64_t offset_count, std::uint64_t size) {
         const Array<std::int64_t> offsets = cell_array("offsets", offset_count);
         const std::size_t first = cells_.corners.size();
-        require(offsets.front() == 0, "the first offset must be 0");
+        in_.require(offsets.front() == 0, "the first offset must be 0");
         for (std::size_t i = 1; i < offsets.size(); ++i) {
             if (offsets[i] <= offsets[i - 1]) {
                 in_.fail(fmt::format("cell {} ends at offset {}, but begins at {}", first + i - 1, offsets[i],
@@ -284,8 +278,8 @@ private:
             }
             begin_cell(offsets[i] - offsets[i - 1]);
         }
-        require(std::cmp_equal(offsets.back(), size),
-                fmt::format("the last offset is {}, but {} vertices are claimed", offsets.back(), size));
+        in_.require(std::cmp_equal(offsets.back(), size),
+                    fmt::format("the last offset is {}, but {} vertices are claimed", offsets.back(), size));
         const Array<std::int64_t> vertices = cell_array("connectivity", size);
         cells_.vertices.reserve(cells_.vertices.size() + vertices.size());
         std::size_t cell = 0;
@@ -297,7 +291,7 @@ private:
 
     Array<std::int64_t> cell_array(const std::string& name, std::uint64_t count) {
         const std::string word = lower(in_.word());
-        require(word == name, fmt::format("\"{}\" was expected among the cells", name));
+        in_.require(word == name, fmt::format("\"{}\" was expected among the cells", name));
         const std::string type = lower(in_.word());
         in_.line();
         return values<std::int64_t>(type, count, 1, name.c_str());
@@ -317,11 +311,11 @@ private:
     }
 
     void read_types() {
-        require(cells_.types.empty(), "CELL_TYPES appears twice");
+        in_.require(cells_.types.empty(), "CELL_TYPES appears twice");
         const auto claimed = in_.parsed<std::uint64_t>("the count of cell types");
         in_.line();
-        require(claimed == cells_.corners.size(),
-                fmt::format("{} cell types for {} cells", claimed, cells_.corners.size()));
+        in_.require(claimed == cells_.corners.size(),
+                    fmt::format("{} cell types for {} cells", claimed, cells_.corners.size()));
         cells_.types.reserve(cells_.corners.size());
         for (std::size_t cell = 0; cell < cells_.corners.size(); ++cell) {
             add_type(value<std::int32_t>("a cell's type"));
@@ -345,8 +339,8 @@ private:
 
     /// Whatever their order in the file, VTK counts cells in this one.
     void read_surface_cells(int type) {
-        require(cells_.types.empty() || cells_.types.back() < type,
-                "VERTICES, LINES and POLYGONS were expected in this order, each once");
+        in_.require(cells_.types.empty() || cells_.types.back() < type,
+                    "VERTICES, LINES and POLYGONS were expected in this order, each once");
         read_cells();
         while (cells_.types.size() < cells_.corners.size()) {
             add_type(type);
@@ -358,8 +352,8 @@ private:
     void open_data(bool on_points) {
         const auto claimed = in_.parsed<std::uint64_t>("a count of rows");
         const std::size_t rows = on_points ? soup_.points.size() : cells_.corners.size();
-        require(claimed == rows, fmt::format("data for {} {}, but there are {}", claimed,
-                                             on_points ? "points" : "cells", rows));
+        in_.require(claimed == rows, fmt::format("data for {} {}, but there are {}", claimed,
+                                                 on_points ? "points" : "cells", rows));
         rows_ = rows;
         arrays_ = on_points ? &soup_.point_data : &soup_.cell_data;
         last_ = nullptr;
@@ -376,7 +370,7 @@ private:
                                                                          : 1;
         const bool known = fixed > 1 || kind == "scalars" || kind == "texture_coordinates" ||
                            kind == "global_ids" || kind == "pedigree_ids" || kind == "edge_flags";
-        require(known, fmt::format("\"{}\" is no kind of data in a VTK file", kind.substr(0, 40)));
+        in_.require(known, fmt::format("\"{}\" is no kind of data in a VTK file", kind.substr(0, 40)));
         const std::string name = percent_decoded(in_.word());
         const std::size_t width = kind == "texture_coordinates" ? component_count() : fixed;
         const std::string type = lower(in_.word());
@@ -416,7 +410,7 @@ private:
 
     std::size_t checked_components(std::uint64_t count) const {
         constexpr std::uint64_t most = 1000000;
-        require(count >= 1 && count <= most, fmt::format("{} is no number of components", count));
+        in_.require(count >= 1 && count <= most, fmt::format("{} is no number of components", count));
         return static_cast<std::size_t>(count);
     }
 
@@ -440,8 +434,8 @@ private:
         const auto rows = in_.parsed<std::uint64_t>("a count of rows");
         const std::string type = lower(in_.word());
         in_.line();
-        require(!rows_ || rows == *rows_,
-                fmt::format("array \"{}\" has {} rows for {}", name, rows, rows_.value_or(0)));
+        in_.require(!rows_ || rows == *rows_,
+                    fmt::format("array \"{}\" has {} rows for {}", name, rows, rows_.value_or(0)));
         add_array(rows_ ? *arrays_ : soup_.field_data, name, type, width, rows);
     }
 
@@ -470,7 +464,9 @@ private:
                 const std::size_t size = in_.plausible(text_size(), 1, what);
                 texts.emplace_back(in_.take(size, what), size);
             } else {
-                require(in_.remaining() > 0, fmt::format("the file ends within {}", what));
+                if (in_.remaining() == 0) {
+                    in_.fail(fmt::format("the file ends within {}", what));
+                }
                 texts.push_back(percent_decoded(in_.line()));
             }
         }

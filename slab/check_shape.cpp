@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check_shape.h"
 
+#include "simplex_measure.h"
+
 #include <fmt/format.h>
 
 #include <bit>
@@ -32,15 +34,6 @@ double longest_edge(const std::array<Point<N>, D + 1>& corners) {
         }
     }
     return std::sqrt(square);
-}
-
-template<int D, int N>
-double measure_of(const std::array<Point<N>, D + 1>& corners) {
-    if constexpr (N == D) {
-        return std::abs(signed_measure<D>(corners));
-    } else {
-        return std::sqrt(square_distance(simplex_normal<D>(corners), Point<N>{}));
-    }
 }
 
 /// Equal for equal points; 0.0 and -0.0 are equal.
@@ -136,7 +129,7 @@ bool is_degenerate(const std::array<Point<N>, D + 1>& corners) {
     for (int k = 0; k < D; ++k) {
         scale *= edge;
     }
-    return measure_of<D, N>(corners) <= scale;
+    return simplex_measure<D, N>(corners) <= scale;
 }
 
 template<int D, int N>
@@ -148,7 +141,7 @@ void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<
     for (const Index c : bad) {
         findings.cell(
             Defect::degenerate_cell, c,
-            fmt::format("its measure is {:.3g}", measure_of<D, N>(corners_of<D, N>(cells[c], points))));
+            fmt::format("its measure is {:.3g}", simplex_measure<D, N>(corners_of<D, N>(cells[c], points))));
     }
 }
 

@@ -5,6 +5,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/io/files.h"
 #include "slabhull/topology/adjacency.h"
+#include "soup_cells.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -195,24 +196,13 @@ Array<std::int64_t> optional_numbers(const io::Soup& soup, const DataArray* arra
     return whole_numbers(soup, *array);
 }
 
-template<int K>
-Array<Simplex<K>> simplices_of(const io::Soup& soup) {
-    const Array<Index>& vertices = soup.simplices[K].vertices;
-    Array<Simplex<K>> cells(vertices.size() / (K + 1));
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        cells[i / (K + 1)][i % (K + 1)] = vertices[i];
-    }
-    return cells;
-}
-
 template<int D>
 Array<Point<D + 1>> space_time_points(const io::Soup& soup) {
     Array<Point<D + 1>> points(soup.points.size());
     const Array<double>* times = nullptr;
     if constexpr (D == 3) {
-        const DataArray* array = soup.find_point_data("t");
-        times = array == nullptr ? nullptr : std::get_if<Array<double>>(&array->values);
-        if (times == nullptr || times->size() != points.size()) {
+        times = soup_times(soup);
+        if (times == nullptr) {
             throw InputError(
                 fmt::format("{}: needs a point array \"t\" of real numbers, one for each point", soup.path));
         }

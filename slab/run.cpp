@@ -56,14 +56,6 @@ Json settings_as_json(const Case& the_case) {
             {"cap_order", the_case.cap_curve_order ? "curve" : "mesher"}};
 }
 
-void make_directory(const std::filesystem::path& directory) {
-    std::error_code failure;
-    std::filesystem::create_directories(directory, failure);
-    if (failure) {
-        throw OutputError(fmt::format("{}: {}", directory.string(), failure.message()));
-    }
-}
-
 /// The files of a slab while they are being written. Without commit they vanish.
 struct SlabFiles {
     std::vector<std::filesystem::path> paths;
@@ -93,7 +85,7 @@ class Runner {
 public:
     Runner(const Case& the_case, const RunOptions& options, const Listener& listener)
         : case_{the_case}, listener_{listener} {
-        make_directory(case_.directory);
+        io::make_folder(case_.directory);
         io::remove_stale_parts(case_.directory);
         if (!options.resume || !resume()) {
             begin();

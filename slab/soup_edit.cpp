@@ -5,6 +5,7 @@
 #include "slabhull/geometry/mesh_order.h"
 #include "slabhull/slab/soup_numbers.h"
 #include "slabhull/topology/adjacency.h"
+#include "soup_cells.h"
 #include "soup_rows.h"
 
 #include <algorithm>
@@ -73,16 +74,6 @@ Order cells_of_region(io::Soup& soup, std::size_t top, int region) {
 
 // --- boundary
 
-template<int D>
-Array<Simplex<D>> cells_of(const io::Soup& soup) {
-    const Array<Index>& vertices = soup.simplices[D].vertices;
-    Array<Simplex<D>> cells(vertices.size() / (D + 1));
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        cells[i / (D + 1)][i % (D + 1)] = vertices[i];
-    }
-    return cells;
-}
-
 template<std::size_t N>
 std::array<Index, N> sorted(std::array<Index, N> vertices) {
     std::sort(vertices.begin(), vertices.end());
@@ -122,7 +113,7 @@ struct Boundary {
 
 template<int D>
 Boundary<D> boundary_of(const io::Soup& soup) {
-    const Array<Simplex<D>> cells = cells_of<D>(soup);
+    const Array<Simplex<D>> cells = simplices_of<D>(soup);
     require_distinct_vertices<D>(soup, cells);
     const Adjacency<D> adjacency = build_adjacency<D>(cells, soup.points.size());
     std::set<Facet<D>> overfull;
@@ -269,9 +260,8 @@ bool has_time_as_coordinate(const io::Soup& soup) {
     if (soup.top_dimension() != 2) {
         return false;
     }
-    const io::DataArray* array = soup.find_point_data("t");
-    const auto* times = array == nullptr ? nullptr : std::get_if<Array<double>>(&array->values);
-    if (times == nullptr || times->size() != soup.points.size()) {
+    const Array<double>* times = soup_times(soup);
+    if (times == nullptr) {
         return patch_number(soup.groups[2], "terminating") != 0;
     }
     return std::equal(times->begin(), times->end(), soup.points.begin(),

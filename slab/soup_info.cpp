@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/soup_info.h"
 
+#include "simplex_measure.h"
 #include "slabhull/slab/soup_edit.h"
 #include "slabhull/slab/soup_numbers.h"
+#include "soup_cells.h"
 #include "soup_rows.h"
 
 #include <algorithm>
@@ -15,14 +17,8 @@ namespace {
 
 using Numbers = Array<std::int64_t>;
 
-const Array<double>* times_of(const io::Soup& soup) {
-    const io::DataArray* array = soup.find_point_data("t");
-    const auto* times = array == nullptr ? nullptr : std::get_if<Array<double>>(&array->values);
-    return times != nullptr && times->size() == soup.points.size() ? times : nullptr;
-}
-
 bool is_hull(const io::Soup& soup) {
-    return soup.top_dimension() == 3 ? times_of(soup) != nullptr : has_time_as_coordinate(soup);
+    return soup.top_dimension() == 3 ? soup_times(soup) != nullptr : has_time_as_coordinate(soup);
 }
 
 template<int N>
@@ -30,7 +26,7 @@ Array<Point<N>> points_of(const io::Soup& soup) {
     if constexpr (N == 3) {
         return soup.points;
     } else {
-        const Array<double>& times = *times_of(soup);
+        const Array<double>& times = *soup_times(soup);
         Array<Point<4>> points(soup.points.size());
         for (std::size_t v = 0; v < points.size(); ++v) {
             const Point<3>& x = soup.points[v];
@@ -54,39 +50,10 @@ std::vector<SoupInfo::Bounds> bounds_of(const Array<Point<N>>& points, const cha
 // --- measures
 
 template<int D, int N>
-double measure_of(const std::array<Point<N>, D + 1>& corners) {
-    if constexpr (D == N) {
-        return std::abs(signed_measure<D>(corners));
-    } else if constexpr (D == 1) {
-        double square = 0;
-        for (std::size_t k = 0; k < N; ++k) {
-            square += (corners[1][k] - corners[0][k]) * (corners[1][k] - corners[0][k]);
-        }
-        return std::sqrt(square);
-    } else {
-        double square = 0;
-        for (const double x : simplex_normal<D>(corners)) {
-            square += x * x;
-        }
-        return std::sqrt(square);
-    }
-}
-
-template<int D>
-Array<Simplex<D>> cells_of(const io::Soup& soup) {
-    const Array<Index>& vertices = soup.simplices[D].vertices;
-    Array<Simplex<D>> cells(vertices.size() / (D + 1));
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        cells[i / (D + 1)][i % (D + 1)] = vertices[i];
-    }
-    return cells;
-}
-
-template<int D, int N>
 Array<double> measures_of(const Array<Point<N>>& points, const Array<Simplex<D>>& cells) {
     Array<double> measures(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        measures[c] = measure_of<D, N>(corners_of<D, N>(cells[c], points));
+        measures[c] = simplex_measure<D, N>(corners_of<D, N>(cells[c], points));
     }
     return measures;
 }
@@ -94,11 +61,11 @@ Array<double> measures_of(const Array<Point<N>>& points, const Array<Simplex<D>>
 Array<double> measures_in_space(const io::Soup& soup, int dimension) {
     switch (dimension) {
     case 1:
-        return measures_of<1, 3>(soup.points, cells_of<1>(soup));
+        return measures_of<1, 3>(soup.points, simplices_of<1>(soup));
     case 2:
-        return measures_of<2, 3>(soup.points, cells_of<2>(soup));
+        return measures_of<2, 3>(soup.points, simplices_of<2>(soup));
     case 3:
-        return measures_of<3, 3>(soup.points, cells_of<3>(soup));
+        return measures_of<3, 3>(soup.points, simplices_of<3>(soup));
     default:
         return Array<double>(soup.simplices[0].vertices.size(), 0.0);
     }
@@ -159,7 +126,7 @@ void add_parts(SoupInfo& info, io::Soup& soup, const Array<double>& measures) {
 template<int D, int N>
 void look_at_cells(SoupInfo& info, io::Soup& soup) {
     const Array<Point<N>> points = points_of<N>(soup);
-    const Array<Simplex<D>> cells = cells_of<D>(soup);
+    const Array<Simplex<D>> cells = simplices_of<D>(soup);
     info.bounds = bounds_of<N>(points, info.hull && D == 2 ? "xyt" : "xyzt");
     info.angles = angle_histogram<D, N>(points, cells);
     for (const Simplex<D>& cell : cells) {

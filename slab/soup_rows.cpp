@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "soup_rows.h"
 
+#include "soup_cells.h"
+
 #include <algorithm>
 
 namespace slabhull::detail {
@@ -137,3 +139,13 @@ void mend_cells_of_points(io::Soup& soup) {
 }
 
 } // namespace slabhull::detail
+
+namespace slabhull {
+
+const Array<double>* soup_times(const io::Soup& soup) {
+    const io::DataArray* array = soup.find_point_data("t");
+    const auto* times = array == nullptr ? nullptr : std::get_if<Array<double>>(&array->values);
+    return times != nullptr && times->size() == soup.points.size() ? times : nullptr;
+}
+
+} // namespace slabhull

@@ -2,6 +2,7 @@
 #include "slabhull/slab/soup_edit.h"
 
 #include "slabhull/topology/adjacency.h"
+#include "soup_cells.h"
 #include "soup_rows.h"
 
 #include <algorithm>
@@ -35,11 +36,8 @@ struct PlaceHash {
 /// surroundings reach into two boxes along each axis at most.
 class PointGrid {
 public:
-    PointGrid(const io::Soup& soup, double tolerance) : points_{soup.points}, tolerance_{tolerance} {
-        const io::DataArray* array = soup.find_point_data("t");
-        const auto* times = array == nullptr ? nullptr : std::get_if<Array<double>>(&array->values);
-        times_ = times != nullptr && times->size() == points_.size() ? times : nullptr;
-    }
+    PointGrid(const io::Soup& soup, double tolerance)
+        : points_{soup.points}, times_{soup_times(soup)}, tolerance_{tolerance} {}
 
     /// An earlier one that is near, or v itself, which stays then.
     Index keep(Index v) {

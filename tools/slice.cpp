@@ -117,10 +117,8 @@ public:
     const std::optional<std::filesystem::path>& series() const { return series_; }
 
     void make_directory() const {
-        std::error_code failure;
-        const auto directory = stem_.parent_path();
-        if (!directory.empty() && !std::filesystem::create_directories(directory, failure) && failure) {
-            throw OutputError{fmt::format("{}: {}", directory.string(), failure.message())};
+        if (stem_.has_parent_path()) {
+            io::make_folder(stem_.parent_path());
         }
     }
 

@@ -289,18 +289,17 @@ private:
         for (std::size_t k = 0; k < suspects.size(); ++k) {
             place[suspects[k]] = static_cast<Index>(k);
         }
-        CellLists stars = list_cells(cells_.size(), suspects.size(), [&](std::size_t c, const auto& file) {
-            each_vertex(cells_[c], [&](Index v) {
-                if (place[v] != no_index) {
-                    file(place[v]);
-                }
+        const CellLists stars =
+            list_cells(cells_.size(), suspects.size(), [&](std::size_t c, const auto& file) {
+                each_vertex(cells_[c], [&](Index v) {
+                    if (place[v] != no_index) {
+                        file(place[v]);
+                    }
+                });
             });
-        });
         std::vector<LinkFaults> faults(suspects.size());
         parallel_for(suspects.size(), 64, [&](std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k) {
-                std::sort(stars.cells.begin() + static_cast<std::ptrdiff_t>(stars.begin[k]),
-                          stars.cells.begin() + static_cast<std::ptrdiff_t>(stars.begin[k + 1]));
                 faults[k] = examine_link<D>(suspects[k], stars.of(k), cells_, adjacency_.neighbors);
             }
         });

@@ -44,6 +44,9 @@ private:
     std::optional<Checksum> checksum_;
 };
 
+/// Makes a folder and those above it, where they are missing. Throws OutputError.
+void make_folder(const std::filesystem::path& folder);
+
 /// Removes the temporary files that processes left in a folder which were killed while writing there.
 void remove_stale_parts(const std::filesystem::path& folder);
 
