@@ -4,19 +4,41 @@
 #include "slabhull/core/array.h"
 #include "slabhull/core/parallel.h"
 
+#include <array>
+
 namespace slabhull::io {
 
 void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill) {
+    stream_text(file, rows, row_bytes, [&](std::size_t begin, std::size_t end, char* out) {
+        fill(begin, end, out);
+        return out + (end - begin) * row_bytes;
+    });
+}
+
+void stream_text(AtomicFile& file, std::size_t rows, std::size_t longest_row, const TextFill& fill) {
     constexpr std::size_t block_bytes = std::size_t{8} << 20;
     constexpr std::size_t pieces = 8;
-    const std::size_t block_rows = std::max(pieces, block_bytes / row_bytes);
-    Array<char> block(std::min(rows, block_rows) * row_bytes);
+    const std::size_t piece_rows = std::max<std::size_t>(1, block_bytes / longest_row / pieces);
+    const std::size_t block_rows = pieces * piece_rows;
+    Array<char> block(std::min(rows, block_rows) * longest_row);
+    std::array<std::size_t, pieces> lengths{};
     for (std::size_t first = 0; first < rows; first += block_rows) {
         const std::size_t count = std::min(rows - first, block_rows);
-        parallel_for(count, block_rows / pieces, [&](std::size_t begin, std::size_t end) {
-            fill(first + begin, first + end, block.data() + begin * row_bytes);
+        lengths.fill(0);
+        parallel_for(count, piece_rows, [&](std::size_t begin, std::size_t end) {
+            char* out = block.data() + begin * longest_row;
+            lengths[begin / piece_rows] =
+                static_cast<std::size_t>(fill(first + begin, first + end, out) - out);
         });
-        file.write(block.data(), count * row_bytes);
+        std::size_t used = 0;
+        for (std::size_t piece = 0; piece < pieces; ++piece) { // closes the gaps, where there are any
+            const std::size_t place = piece * piece_rows * longest_row;
+            if (lengths[piece] > 0 && place != used) {
+                std::memmove(block.data() + used, block.data() + place, lengths[piece]);
+            }
+            used += lengths[piece];
+        }
+        file.write(block.data(), used);
     }
 }
 

@@ -91,14 +91,20 @@ enum class VtuEncoding { raw, zlib, lz4, ascii };
 /// read_vtu() gives them back.
 void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh,
                VtuEncoding encoding = VtuEncoding::raw);
-/// MSH 4.1 binary: dense tags from 1, one block of nodes, one of elements per group (groups may share a
-/// number, and then an entity), `$Entities` and `$PhysicalNames`; point data as `$NodeData`, cell data as
-/// `$ElementData` (components > 1 become name_0, name_1 ..). Throws LimitError when data have more rows than
-/// the format's 32 bits count, std::invalid_argument when the groups do not hold all cells in order.
-void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
+enum class MshVersion { v4_1, v2_2 };
+struct MshOptions {
+    MshVersion version = MshVersion::v4_1;
+    bool ascii = false; ///< text with the shortest digits that give the same number again; else binary
+};
+/// MSH: dense tags from 1, one block of nodes, one of elements per group (groups may share a number, and then
+/// an entity), `$PhysicalNames` and, in version 4.1, `$Entities`; point data as `$NodeData`, cell data as
+/// `$ElementData`. Reals of 3 or 9 components are one array, all others become name_0, name_1 ... Throws
+/// LimitError where there is more than the format counts, in 32 bits but for the nodes and elements of version
+/// 4.1, and std::invalid_argument when the groups do not hold all cells in order.
+void write_msh(const std::filesystem::path& path, const MeshColumns& mesh, const MshOptions& options = {});
 /// The same into a file that is the caller's to commit.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh, VtuEncoding encoding = VtuEncoding::raw);
-void write_msh(AtomicFile& file, const MeshColumns& mesh);
+void write_msh(AtomicFile& file, const MeshColumns& mesh, const MshOptions& options = {});
 /// VTK legacy, version 4.2, binary: what write_vtu() writes, arrays as FIELD, int64 as `long` (the one name
 /// that both VTK, where a long has 64 bits, and meshio know), text arrays as bytes whose component is called
 /// slabhull_text. Throws LimitError when the format's 32 bits do not count the points or the values of CELLS.
