@@ -274,8 +274,8 @@ private:
 
     /// Rows of the nodes' tags, places, or both.
     void write_nodes(bool tags, bool places) {
-        const std::size_t longest = (tags ? Row::template longest<Tag> : 0) +
-                                    (places ? 3 * Row::template longest<double> : 0);
+        const std::size_t longest =
+            (tags ? Row::template longest<Tag> : 0) + (places ? 3 * Row::template longest<double> : 0);
         rows(mesh_.points.rows(), longest, [&](std::size_t begin, std::size_t end, Row& row) {
             const auto put_row = [&](std::size_t node, const double* x) {
                 if (tags) {
@@ -345,16 +345,15 @@ private:
         const std::size_t tag = part.tags_before + 1;
         rows(group.end - group.begin, (1 + same.size() + corners) * Row::template longest<Tag>,
              [&](std::size_t begin, std::size_t end, Row& row) {
-                 for_each_row(part.cells, group.begin + begin, group.begin + end,
-                              [&](std::size_t cell, const std::int64_t* vertices) {
-                                  row.value(static_cast<Tag>(cell + tag));
-                                  std::for_each(same.begin(), same.end(),
-                                                [&](auto value) { row.value(value); });
-                                  std::for_each(vertices, vertices + corners, [&](std::int64_t vertex) {
-                                      row.value(static_cast<Tag>(vertex + 1));
-                                  });
-                                  row.end();
-                              });
+                 for_each_row(
+                     part.cells, group.begin + begin, group.begin + end,
+                     [&](std::size_t cell, const std::int64_t* vertices) {
+                         row.value(static_cast<Tag>(cell + tag));
+                         std::for_each(same.begin(), same.end(), [&](auto value) { row.value(value); });
+                         std::for_each(vertices, vertices + corners,
+                                       [&](std::int64_t vertex) { row.value(static_cast<Tag>(vertex + 1)); });
+                         row.end();
+                     });
              });
     }
 
@@ -385,8 +384,7 @@ private:
     void write_components(const char* name, const DataColumn& data, const std::string& title, int first,
                           int last) {
         section(name, [&] {
-            file_.write(
-                fmt::format("1\n\"{}\"\n1\n0\n3\n0\n{}\n{}\n", title, last - first, rows_of(data)));
+            file_.write(fmt::format("1\n\"{}\"\n1\n0\n3\n0\n{}\n{}\n", title, last - first, rows_of(data)));
             std::visit([&](const auto& column) { write_values(column, first, last); }, data.values);
         });
     }

@@ -28,6 +28,7 @@ struct ConvertCommand {
     std::string renumber;
     bool boundary = false;
     bool reverse = false;
+    io::WriteOptions writing;
 };
 
 const std::vector<std::string> regions{"initial", "side", "terminating"}; // by their numbers
@@ -85,11 +86,18 @@ void require_dimension(const ConvertCommand& command, const io::Format& format, 
     }
 }
 
+/// Formats of named groups, and those that keep only groups, get groups; all others arrays.
+void settle_groups(const io::Format& format, io::Soup& soup) {
+    const bool arrays_stay = io::keeps(format, soup, io::Over::cells, {"patch", 1, Array<std::int64_t>{}});
+    const bool as_groups = format.holds.groups && (format.holds.group_names || !arrays_stay);
+    as_groups ? arrays_to_groups(soup) : groups_to_arrays(soup);
+}
+
 /// Brings what the soup says into the format's own terms, and tells what is lost.
 void adapt(const ConvertCommand& command, const io::Format& format, io::Soup& soup,
            const std::vector<std::string>& lost_numbers) {
-    format.holds.groups ? arrays_to_groups(soup) : groups_to_arrays(soup);
-    std::vector<std::string> lost = io::losses(format, soup);
+    settle_groups(format, soup);
+    std::vector<std::string> lost = io::losses(format, soup, command.writing);
     lost.insert(lost.end(), lost_numbers.begin(), lost_numbers.end());
     if (!lost.empty()) {
         tell(command.out, fmt::format("{} does not hold: {}", format.title, fmt::join(lost, "; ")));
@@ -111,9 +119,18 @@ io::MeshColumns columns_to_write(const io::Soup& soup) {
     return mesh;
 }
 
+std::string names_of(const io::AtomicFiles& files) {
+    std::string names;
+    for (const std::filesystem::path& path : files.paths()) {
+        names += (names.empty() ? "" : ", ") + path.string();
+    }
+    return names;
+}
+
 int convert(const ConvertCommand& command) {
     const io::Format& from = format_to_read(command.in, command.from);
     const io::Format& to = format_to_write(command.out, command.to);
+    io::require_offered(to, command.writing, "--");
     require_sense(command);
     io::Soup soup = from.read(command.in);
     const std::vector<std::string> lost_numbers = io::lost_numbers(soup);
@@ -122,10 +139,10 @@ int convert(const ConvertCommand& command) {
     require_dimension(command, to, soup);
     adapt(command, to, soup, lost_numbers);
     const io::MeshColumns mesh = columns_to_write(soup);
-    io::AtomicFile file{command.out};
-    to.write(file, mesh);
-    file.commit();
-    fmt::print("{}: {} points, {} {}\n", command.out, soup.points.size(), mesh.cells.rows(),
+    io::AtomicFiles files;
+    to.write(files, command.out, mesh, command.writing);
+    files.commit();
+    fmt::print("{}: {} points, {} {}\n", names_of(files), soup.points.size(), mesh.cells.rows(),
                simplices_called(mesh.dimension));
     return 0;
 }
@@ -139,6 +156,11 @@ void add_convert(CLI::App& program, int& exit_code) {
     app->add_option("OUT", command->out, "The file to write; whole, or not at all")->required();
     app->add_option("--from", command->from, "Format of IN, whatever its extension");
     app->add_option("--to", command->to, "Format of OUT, whatever its extension");
+    app->add_option("--encoding", command->writing.encoding,
+                    "How OUT stores values: binary or ascii (MSH); raw, zlib, lz4 or ascii (VTU)");
+    app->add_option("--version", command->writing.version, "Version of OUT's format: 4.1 or 2.2 (MSH)");
+    app->add_flag("--four-dimensional", command->writing.four_dimensional,
+                  "OUT in Medit's dialect with vertices x y z t, from the point data t");
     app->add_option("--region", command->region, "Of a hull, only that part: initial, side or terminating")
         ->check(CLI::IsMember(regions));
     app->add_option("--patch", command->patch,
@@ -150,11 +172,11 @@ void add_convert(CLI::App& program, int& exit_code) {
     app->add_option("--renumber", command->renumber,
                     "Number points and cells along a space-filling curve: curve")
         ->check(CLI::IsMember({"curve"}));
-    app->footer(
-        "These are done in the order in which they are listed. What OUT's format cannot hold is told on "
-        "stderr.\n" +
-        formats_help() +
-        "Example: slabhull convert out/room/slab_0000.vtu side.msh --region side --renumber curve");
+    app->footer("Operations from --region on are done in the order in which they are listed. What OUT's "
+                "format cannot hold is told on "
+                "stderr.\n" +
+                formats_help() +
+                "Example: slabhull convert out/room/slab_0000.vtu side.msh --region side --renumber curve");
     app->callback([command, &exit_code] { exit_code = convert(*command); });
 }
 

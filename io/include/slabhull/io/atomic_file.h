@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace slabhull::io {
 
@@ -42,6 +44,21 @@ private:
     std::filesystem::path temporary_; ///< empty once committed
     int descriptor_ = -1;
     std::optional<Checksum> checksum_;
+};
+
+/// Files that get their names together: what can fail has been done for all of them before the first does.
+class AtomicFiles {
+public:
+    /// Begins a further one; the reference stays good. Throws OutputError, also for a path that is among
+    /// them.
+    AtomicFile& open(const std::filesystem::path& path);
+    void commit();
+    /// In the order in which they were opened.
+    const std::vector<std::filesystem::path>& paths() const { return paths_; }
+
+private:
+    std::vector<std::filesystem::path> paths_;
+    std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 
 /// Makes a folder and those above it, where they are missing. Throws OutputError.
