@@ -6,17 +6,27 @@
 
 namespace slabhull::io {
 
+namespace {
+constexpr std::size_t least_rows = 4096; ///< that are worth a thread
+}
+
 void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill) {
-    constexpr std::size_t block_bytes = std::size_t{8} << 20;
     constexpr std::size_t pieces = 8;
-    const std::size_t block_rows = std::max(pieces, block_bytes / row_bytes);
-    Array<char> block(std::min(rows, block_rows) * row_bytes);
-    for (std::size_t first = 0; first < rows; first += block_rows) {
-        const std::size_t count = std::min(rows - first, block_rows);
-        parallel_for(count, block_rows / pieces, [&](std::size_t begin, std::size_t end) {
-            fill(first + begin, first + end, block.data() + begin * row_bytes);
+    std::vector<char> split(row_bytes); // a row that reaches into the next block
+    for (std::size_t first = 0; first < rows;) {
+        const std::span<char> room = file.room();
+        const std::size_t count = std::min(rows - first, room.size() / row_bytes);
+        if (count == 0) {
+            fill(first, first + 1, split.data());
+            file.write(split.data(), row_bytes);
+            ++first;
+            continue;
+        }
+        parallel_for(count, std::max(least_rows, count / pieces), [&](std::size_t begin, std::size_t end) {
+            fill(first + begin, first + end, room.data() + begin * row_bytes);
         });
-        file.write(block.data(), count * row_bytes);
+        file.advance(count * row_bytes);
+        first += count;
     }
 }
 
