@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/io/atomic_file.h"
 
+#include "block_writer.h"
 #include "slabhull/core/error.h"
 #include "slabhull/io/files.h"
 
@@ -70,9 +71,11 @@ AtomicFile::AtomicFile(const std::filesystem::path& path)
     if (descriptor_ < 0) {
         fail("cannot be created");
     }
+    blocks_ = std::make_unique<BlockWriter>(descriptor_);
 }
 
 AtomicFile::~AtomicFile() {
+    blocks_.reset(); // its thread may be writing still
     if (descriptor_ >= 0) {
         ::close(descriptor_);
     }
@@ -82,18 +85,33 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(const void* bytes, std::size_t size) {
-    if (checksum_) {
-        checksum_->add(bytes, size);
-    }
     const auto* next = static_cast<const char*>(bytes);
     while (size > 0) {
-        const ssize_t written = ::write(descriptor_, next, size);
-        if (written < 0 && errno != EINTR) {
-            fail("cannot be written");
-        }
-        const auto step = static_cast<std::size_t>(std::max<ssize_t>(0, written));
+        const std::span<char> place = room();
+        const std::size_t step = std::min(size, place.size());
+        std::memcpy(place.data(), next, step);
+        advance(step);
         next += step;
         size -= step;
+    }
+}
+
+std::span<char> AtomicFile::room() {
+    return blocks_->room();
+}
+
+void AtomicFile::advance(std::size_t size) {
+    if (checksum_) {
+        checksum_->add(blocks_->room().data(), size);
+    }
+    blocks_->advance(size);
+    check_blocks();
+}
+
+void AtomicFile::check_blocks() const {
+    if (const int error = blocks_->error(); error != 0) {
+        errno = error;
+        fail("cannot be written");
     }
 }
 
@@ -101,6 +119,8 @@ void AtomicFile::finish() {
     if (descriptor_ < 0) {
         return;
     }
+    blocks_->finish();
+    check_blocks();
     if (::fdatasync(descriptor_) != 0 || ::close(std::exchange(descriptor_, -1)) != 0) {
         fail("cannot be written");
     }

@@ -8,11 +8,28 @@
 
 namespace slabhull::io {
 
+namespace {
+constexpr std::size_t least_rows = 4096; ///< that are worth a thread
+}
+
 void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill) {
-    stream_text(file, rows, row_bytes, [&](std::size_t begin, std::size_t end, char* out) {
-        fill(begin, end, out);
-        return out + (end - begin) * row_bytes;
-    });
+    constexpr std::size_t pieces = 8;
+    std::vector<char> split(row_bytes); // a row that reaches into the next block
+    for (std::size_t first = 0; first < rows;) {
+        const std::span<char> room = file.room();
+        const std::size_t count = std::min(rows - first, room.size() / row_bytes);
+        if (count == 0) {
+            fill(first, first + 1, split.data());
+            file.write(split.data(), row_bytes);
+            ++first;
+            continue;
+        }
+        parallel_for(count, std::max(least_rows, count / pieces), [&](std::size_t begin, std::size_t end) {
+            fill(first + begin, first + end, room.data() + begin * row_bytes);
+        });
+        file.advance(count * row_bytes);
+        first += count;
+    }
 }
 
 void stream_text(AtomicFile& file, std::size_t rows, std::size_t longest_row, const TextFill& fill) {
@@ -70,5 +87,6 @@ std::size_t rows_of(const DataColumn& data) {
 int components_of(const DataColumn& data) {
     return std::visit([](const auto& column) { return column.components(); }, data.values);
 }
+
 
 } // namespace slabhull::io

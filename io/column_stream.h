@@ -33,19 +33,29 @@ void stream_blocks(std::size_t rows, std::size_t block_rows, std::size_t row_byt
                    const std::function<std::string(std::string_view bytes)>& transform,
                    const std::function<void(const std::string&)>& take);
 
-/// Calls use(row, values) for rows [begin, end) of a column.
+/// Calls use(row, values, count) for `count` rows of a column from `row` on at a time, rows [begin, end) in
+/// all.
 template<class T, class Use>
-void for_each_row(const Column<T>& column, std::size_t begin, std::size_t end, const Use& use) {
+void for_each_chunk(const Column<T>& column, std::size_t begin, std::size_t end, const Use& use) {
     constexpr std::size_t chunk = 1024; // small enough to stay in the cache
     const auto width = static_cast<std::size_t>(column.components());
     std::vector<T> values(std::min(chunk, end - begin) * width);
     for (std::size_t first = begin; first < end; first += chunk) {
         const std::size_t last = std::min(end, first + chunk);
         column.fill(first, last, values.data());
-        for (std::size_t row = first; row < last; ++row) {
-            use(row, values.data() + (row - first) * width);
-        }
+        use(first, values.data(), last - first);
     }
+}
+
+/// Calls use(row, values) for rows [begin, end) of a column.
+template<class T, class Use>
+void for_each_row(const Column<T>& column, std::size_t begin, std::size_t end, const Use& use) {
+    const auto width = static_cast<std::size_t>(column.components());
+    for_each_chunk(column, begin, end, [&](std::size_t first, const T* values, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            use(first + i, values + i * width);
+        }
+    });
 }
 
 /// Copies the value to `out` and steps past it.
@@ -59,10 +69,13 @@ void put(char*& out, T value) {
 template<class Stored, class Given>
 RowFill stored_as(const Column<Given>& column) {
     return [column](std::size_t begin, std::size_t end, char* out) {
-        for_each_row(column, begin, end, [&](std::size_t, const Given* values) {
-            for (int k = 0; k < column.components(); ++k) {
-                put(out, static_cast<Stored>(values[k]));
+        const auto width = static_cast<std::size_t>(column.components());
+        for_each_chunk(column, begin, end, [&](std::size_t, const Given* values, std::size_t count) {
+            for (std::size_t i = 0; i < count * width; ++i) {
+                const auto value = static_cast<Stored>(values[i]);
+                std::memcpy(out + i * sizeof value, &value, sizeof value);
             }
+            out += count * width * sizeof(Stored);
         });
     };
 }

@@ -7,16 +7,20 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace slabhull::io {
 
+class BlockWriter;
+
 /// A file that appears under its name complete or not at all: bytes go to a temporary file beside it, which
 /// commit() syncs to disk and renames. Without commit() the temporary file is removed and whatever stood
 /// under the name stays. A symbolic link is followed, permissions are those of a new file. All failures are
-/// OutputErrors naming the path.
+/// OutputErrors naming the path; what is written waits in blocks (24 MiB at most), so the failure of one
+/// write() may be told by a later one, at the latest by finish().
 class AtomicFile {
 public:
     explicit AtomicFile(const std::filesystem::path& path);
@@ -26,6 +30,10 @@ public:
 
     void write(const void* bytes, std::size_t size);
     void write(std::string_view text) { write(text.data(), text.size()); }
+    /// Place for bytes that are to be made where they leave from, at least one; advance() by as many as are
+    /// made.
+    std::span<char> room();
+    void advance(std::size_t size);
     /// Syncs to disk, for a commit() that then only renames. Nothing may be written after it.
     void finish();
     /// Gives the file its name, for good: the folder is synced, too.
@@ -38,11 +46,13 @@ public:
 
 private:
     [[noreturn]] void fail(const char* doing) const;
+    void check_blocks() const;
 
     std::filesystem::path path_;      ///< as the caller names it
     std::filesystem::path target_;    ///< where it points
     std::filesystem::path temporary_; ///< empty once committed
     int descriptor_ = -1;
+    std::unique_ptr<BlockWriter> blocks_;
     std::optional<Checksum> checksum_;
 };
 
