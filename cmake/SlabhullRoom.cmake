@@ -18,6 +18,15 @@ if(SLABHULL_SANITIZE)
         -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(slabhull_settings INTERFACE -fsanitize=address,undefined)
 endif()
+if(SLABHULL_FUZZ)
+    if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+        message(FATAL_ERROR "SLABHULL_FUZZ needs Clang, for libFuzzer: cmake --preset fuzz")
+    endif()
+    set(fuzz_sanitizers address,undefined,float-cast-overflow)
+    target_compile_options(slabhull_settings INTERFACE -fsanitize=fuzzer-no-link,${fuzz_sanitizers}
+        -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(slabhull_settings INTERFACE -fsanitize=${fuzz_sanitizers})
+endif()
 
 # slabhull_room(<name> SOURCES <files> [USES <rooms>] [LINKS <private libraries>])
 # A room is a static library Slabhull::<name> with public headers under include/slabhull/<name>/.

@@ -304,4 +304,5 @@ def main():
     write_by_gmsh(top / "msh")
 
 
-main()
+if __name__ == "__main__":
+    main()

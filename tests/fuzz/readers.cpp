@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fuzz/readers.h"
+
+#include "fuzz/input_file.h"
+#include "fuzz/memory_meter.h"
+#include "fuzz/soup_faults.h"
+#include "slabhull/core/error.h"
+#include "slabhull/io/files.h"
+#include "slabhull/io/formats.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace fuzz {
+
+using namespace slabhull;
+
+namespace {
+
+const InputFolder& folder() {
+    static const InputFolder one;
+    return one;
+}
+
+void require(const std::string& fault, const std::string& when) {
+    if (!fault.empty()) {
+        throw std::logic_error{when + ": " + fault};
+    }
+}
+
+/// Memory may grow with the file but not with what it claims. What is packed may unpack to 1032 times as
+/// much, of values that then take eight bytes for one.
+void require_bounded(const MemoryMeter& meter, std::string_view bytes) {
+    constexpr std::size_t fixed = std::size_t{1} << 20;
+    const bool packed = bytes.find("vtkZLib") != bytes.npos || bytes.find("vtkLZ4") != bytes.npos;
+    const std::size_t most = fixed + (packed ? 10000 : 100) * bytes.size();
+    if (meter.peak() > most) {
+        throw std::logic_error{
+            fmt::format("reading {} bytes took {} bytes of memory", bytes.size(), meter.peak())};
+    }
+}
+
+/// Nothing if it is refused; what it refuses must say so with a message.
+template<class Read>
+auto read_or_refuse(const Read& read, const std::filesystem::path& path, std::string_view bytes)
+    -> std::optional<decltype(read(path))> {
+    const MemoryMeter meter;
+    try {
+        auto result = read(path);
+        require_bounded(meter, bytes);
+        return result;
+    } catch (const InputError& error) {
+        const std::string_view message{error.what()};
+        require(message.starts_with(path.parent_path().string()) ? "" : "the file is not named", "message");
+        require(message.size() < 2000 ? "" : "it is too long", "message");
+        require_bounded(meter, bytes);
+        return std::nullopt;
+    }
+}
+
+// --- round trips ---
+
+bool can_hold(const io::Format& format, const io::Soup& soup) {
+    const int dimension = soup.top_dimension();
+    return format.write != nullptr && dimension >= format.holds.least_dimension &&
+           dimension <= format.holds.most_dimension;
+}
+
+/// Writers refuse what the format cannot hold, by an Error; true if it is written.
+bool write(const io::Format& format, const std::filesystem::path& path, const io::Soup& soup) {
+    try {
+        io::AtomicFile file{path};
+        format.write(file, io::columns_of(soup));
+        file.commit();
+        return true;
+    } catch (const InputError&) {
+        throw;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+void write_and_read_again(const io::Format& format, const io::Soup& soup) {
+    const std::filesystem::path path = folder() / fmt::format("again{}", format.extensions.front());
+    if (!can_hold(format, soup) || !write(format, path, soup)) {
+        return;
+    }
+    try {
+        const io::Soup again = format.read(path);
+        require(fault_of(again), "read again");
+        if (format.name != "stl") { // which is in single precision, and welded
+            const auto& groups = soup.simplices[static_cast<std::size_t>(soup.top_dimension())].physical;
+            const bool all_grouped =
+                !groups.empty() && std::find(groups.begin(), groups.end(), 0) == groups.end();
+            const bool exact = format.holds.wide_integers;
+            require(difference(soup, again,
+                               {.groups = format.holds.groups && all_grouped,
+                                .point_data = format.holds.point_data && exact,
+                                .cell_data = format.holds.cell_data && exact,
+                                .field_data = format.holds.field_data && exact}),
+                    "read again");
+        }
+    } catch (const InputError& error) {
+        throw std::logic_error{std::string{"what we write is refused: "} + error.what()};
+    }
+}
+
+// --- readers ---
+
+Outcome read_mesh(const io::Format& format, const std::filesystem::path& path, std::string_view bytes) {
+    const auto soup = read_or_refuse(format.read, path, bytes);
+    if (!soup) {
+        return Outcome::refused;
+    }
+    require(fault_of(*soup), "soup");
+    write_and_read_again(format, *soup);
+    return Outcome::read;
+}
+
+template<std::size_t n>
+struct Name {
+    char text[n]{};
+    constexpr Name(const char (&name)[n]) { std::copy_n(name, n, text); }
+};
+
+template<Name name>
+Outcome read_format(std::string_view bytes) {
+    static const io::Format& format = *io::format_named(name.text);
+    static const std::string file = fmt::format("a{}", format.extensions.front());
+    return read_mesh(format, folder().put(file, bytes), bytes);
+}
+
+/// Files of one stem behind each other, each after a line such as "%% .node"; the first is read.
+Outcome read_tetgen(std::string_view bytes) {
+    constexpr std::array extensions{".node", ".ele", ".neigh", ".face", ".poly", ".smesh"};
+    constexpr std::string_view mark = "%% ";
+    for (const char* extension : extensions) {
+        folder().remove(std::string{"a"} + extension);
+    }
+    std::filesystem::path first;
+    std::string_view rest = bytes;
+    while (rest.starts_with(mark)) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string extension{rest.substr(mark.size(), end - mark.size())};
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        const std::size_t next = std::min(rest.find(mark), rest.size());
+        if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) {
+            const auto path = folder().put("a" + extension, rest.substr(0, next));
+            first = first.empty() ? path : first;
+        }
+        rest.remove_prefix(next);
+    }
+    return read_mesh(*io::format_named("tetgen"), first.empty() ? folder().put("a.node", bytes) : first, bytes);
+}
+
+Outcome read_curve(std::string_view bytes) {
+    const auto soup = read_or_refuse(io::read_curve, folder().put("a.dat", bytes), bytes);
+    require(soup ? fault_of(*soup) : "", "curve");
+    return soup ? Outcome::read : Outcome::refused;
+}
+
+Outcome read_table(std::string_view bytes) {
+    const auto table = read_or_refuse(io::read_motion_table, folder().put("a.csv", bytes), bytes);
+    require(table ? fault_of(*table) : "", "table");
+    return table ? Outcome::read : Outcome::refused;
+}
+
+constexpr std::array all{
+    Reader{"msh", read_format<"msh">},   Reader{"vtu", read_format<"vtu">}, Reader{"vtk", read_format<"vtk">},
+    Reader{"tetgen", read_tetgen},       Reader{"medit", read_format<"medit">},
+    Reader{"mfem", read_format<"mfem">}, Reader{"avro", read_format<"avro">},
+    Reader{"stl", read_format<"stl">},   Reader{"off", read_format<"off">}, Reader{"obj", read_format<"obj">},
+    Reader{"ply", read_format<"ply">},   Reader{"curve", read_curve},       Reader{"csv", read_table},
+};
+
+} // namespace
+
+std::span<const Reader> readers() {
+    return all;
+}
+
+const Reader* reader_named(std::string_view name) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Reader& reader) { return reader.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+} // namespace fuzz
