@@ -89,11 +89,16 @@ void require_dimension(const ConvertCommand& command, const io::Format& format, 
     }
 }
 
-/// Formats of named groups, and those that keep only groups, get groups; all others arrays.
+/// Formats of named groups, and those that keep no arrays, get groups. Where groups lose their names, only
+/// those of hulls, which tell the regions, become arrays.
 void settle_groups(const io::Format& format, io::Soup& soup) {
     const bool arrays_stay = io::keeps(format, soup, io::Over::cells, {"patch", 1, Array<std::int64_t>{}});
-    const bool as_groups = format.holds.groups && (format.holds.group_names || !arrays_stay);
-    as_groups ? arrays_to_groups(soup) : groups_to_arrays(soup);
+    const PatchList& groups = soup.groups[static_cast<std::size_t>(soup.top_dimension())];
+    if (format.holds.groups && (format.holds.group_names || !arrays_stay)) {
+        arrays_to_groups(soup);
+    } else if (!format.holds.groups || patch_number(groups, "terminating") != 0) {
+        groups_to_arrays(soup);
+    }
 }
 
 /// Hulls keep the types that docs/formats.md gives their arrays.
@@ -226,8 +231,7 @@ void add_convert(CLI::App& program, int& exit_code) {
                     "Number points and cells along a space-filling curve: curve")
         ->check(CLI::IsMember({"curve"}));
     app->footer("Operations from --region on are done in the order in which they are listed. What OUT's "
-                "format cannot hold is told on "
-                "stderr.\n" +
+                "format cannot hold is told on stderr.\n" +
                 formats_help() +
                 "Example: slabhull convert out/room/slab_0000.vtu side.msh --region side --renumber curve");
     app->callback([command, &exit_code] { exit_code = convert(*command); });

@@ -200,7 +200,7 @@ class Ways(ConvertTest):
         room = json.loads(slabhull("info", ROOM, "--json").out)
         groups = [(g["dimension"], g["number"], g["cells"]) for g in room["groups"]]
         for name in ("room.mesh", "room.mfem", "room.ele"):
-            there = self.convert(ROOM, name, told=["names of groups: bar, duct, room, walls"])
+            there = self.convert(ROOM, name, told=["names of groups: air, bar, duct, walls"])
             seen = json.loads(slabhull("info", self.convert(there, "back.msh"), "--json").out)
             self.assertEqual([(g["dimension"], g["number"], g["cells"]) for g in seen["groups"]], groups, name)
             self.assertEqual(seen["counts"], room["counts"], name)
@@ -261,7 +261,7 @@ class AllFormatsAreRead(ConvertTest):
             for patch in json.loads(slabhull("info", ROOM, "--json").out)["groups"]:
                 numbered = numbered.replace(f"motion.{patch['name']}]", f"motion.{patch['number']}]")
                 numbered = numbered.replace(f"project.{patch['name']}]", f"project.{patch['number']}]")
-            _, ours = self.build(self.case(numbered, "numbered.toml"), out=name)
+            _, ours = self.build(self.case(numbered, "numbered.toml"), out=name + "_out")
             self.assertEqual(ours["slabs"][0]["measure"], gmsh["slabs"][0]["measure"], name)
 
     def test_a_file_without_a_telling_name_is_known_by_its_content_or_by_from(self):
