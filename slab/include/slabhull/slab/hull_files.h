@@ -59,7 +59,7 @@ struct HullArrays {
     HullColumns<D> columns() const;
 };
 
-/// Takes the arrays of a hull out of what a VTU or MSH says; throws InputError for arrays of the wrong shape.
+/// Takes the arrays of a hull out of what a file says; throws InputError for arrays of the wrong shape.
 template<int D>
 HullArrays<D> hull_of_soup(const io::Soup& soup);
 
