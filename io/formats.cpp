@@ -36,19 +36,12 @@ void alone(AtomicFiles& files, const std::filesystem::path& path, const MeshColu
 
 void write_vtu_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                   const WriteOptions& options) {
-    const auto is = [&](std::string_view encoding) { return options.encoding == encoding; };
-    write_vtu(files.open(path), mesh,
-              is("zlib")    ? VtuEncoding::zlib
-              : is("lz4")   ? VtuEncoding::lz4
-              : is("ascii") ? VtuEncoding::ascii
-                            : VtuEncoding::raw);
+    write_vtu(files.open(path), mesh, vtu_encoding(options));
 }
 
 void write_msh_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                   const WriteOptions& options) {
-    write_msh(files.open(path), mesh,
-              {.version = options.version == "2.2" ? MshVersion::v2_2 : MshVersion::v4_1,
-               .ascii = options.encoding == "ascii"});
+    write_msh(files.open(path), mesh, msh_options(options));
 }
 
 void write_tetgen_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
@@ -118,50 +111,41 @@ constexpr Holds surface_holds{.least_dimension = 2, .most_dimension = 2};
 constexpr Holds stl_holds{
     .least_dimension = 2, .most_dimension = 2, .doubles = false, .shared_points = false};
 
+const std::vector<std::string_view> no_mark;
+const Offers msh_offers{.encodings = {"binary", "ascii"}, .versions = {"4.1", "2.2"}};
+const Offers vtu_offers{.encodings = {"raw", "zlib", "lz4", "ascii"}};
+const Offers medit_offers{.four_dimensional = true};
+
 /// A line for each format; one without a writer says nothing of what it holds.
 const std::vector<Format>& table() {
+    // clang-format off: a table
     static const std::vector<Format> all{
-        {"msh",
-         "MSH",
-         {".msh"},
-         read_msh,
-         write_msh_as,
-         msh_holds,
-         {"$MeshFormat", "$Comments"},
-         {"binary", "ascii"},
-         {"4.1", "2.2"}},
-        {"vtu",
-         "VTU",
-         {".vtu"},
-         read_vtu,
-         write_vtu_as,
-         vtu_holds,
-         {"<VTKFile"},
-         {"raw", "zlib", "lz4", "ascii"}},
-        {"vtk", "legacy VTK", {".vtk"}, read_vtk, alone<write_vtk>, vtu_holds, {"# vtk DataFile"}},
+        {"msh", "MSH", {".msh"}, {"$MeshFormat", "$Comments"}, read_msh, write_msh_as, msh_holds, msh_offers},
+        {"vtu", "VTU", {".vtu"}, {"<VTKFile"}, read_vtu, write_vtu_as, vtu_holds, vtu_offers},
+        {"vtk", "legacy VTK", {".vtk"}, {"# vtk DataFile"}, read_vtk, alone<write_vtk>, vtu_holds},
         {"tetgen",
          "TetGen",
          {".node", ".ele", ".face", ".poly", ".smesh"},
+         no_mark,
          read_tetgen,
          write_tetgen_as,
          tetgen_holds},
         {"medit",
          "Medit",
          {".mesh"},
+         {"MeshVersionFormatted"},
          read_medit,
          write_medit_as,
          medit_holds,
-         {"MeshVersionFormatted"},
-         {},
-         {},
-         true},
-        {"mfem", "MFEM", {".mfem"}, read_mfem, alone<write_mfem>, mfem_holds, {"MFEM mesh"}},
-        {"avro", "avro", {".avro"}, read_avro, alone<write_avro>, avro_holds},
-        {"stl", "STL", {".stl"}, read_stl, alone<write_stl>, stl_holds},
-        {"off", "OFF", {".off"}, read_off, alone<write_off>, surface_holds, {"OFF"}},
-        {"obj", "OBJ", {".obj"}, read_obj, alone<write_obj>, surface_holds},
-        {"ply", "PLY", {".ply"}, read_ply, alone<write_ply>, surface_holds, {"ply"}},
+         medit_offers},
+        {"mfem", "MFEM", {".mfem"}, {"MFEM mesh"}, read_mfem, alone<write_mfem>, mfem_holds},
+        {"avro", "avro", {".avro"}, no_mark, read_avro, alone<write_avro>, avro_holds},
+        {"stl", "STL", {".stl"}, no_mark, read_stl, alone<write_stl>, stl_holds},
+        {"off", "OFF", {".off"}, {"OFF"}, read_off, alone<write_off>, surface_holds},
+        {"obj", "OBJ", {".obj"}, no_mark, read_obj, alone<write_obj>, surface_holds},
+        {"ply", "PLY", {".ply"}, {"ply"}, read_ply, alone<write_ply>, surface_holds},
     };
+    // clang-format on
     return all;
 }
 
@@ -334,9 +318,9 @@ void require_offered(const Format& format, const WriteOptions& options, const st
                              : fmt::format("{}{}: {} is written as {}, not as \"{}\"", prefix, name,
                                            format.title, fmt::join(offered, ", "), wanted)};
     };
-    require_one("encoding", options.encoding, format.encodings);
-    require_one("version", options.version, format.versions);
-    if (options.four_dimensional && !format.four_dimensional) {
+    require_one("encoding", options.encoding, format.offers.encodings);
+    require_one("version", options.version, format.offers.versions);
+    if (options.four_dimensional && !format.offers.four_dimensional) {
         throw UsageError{fmt::format("{}four-dimensional: {} has no such dialect; Medit (.mesh) has one",
                                      prefix, format.title)};
     }
@@ -364,6 +348,19 @@ bool keeps(const Format& format, const Soup& soup, Over over, const DataArray& a
         return holds.keeps(soup, over, array, options);
     }
     return over == Over::points ? holds.point_data : over == Over::cells ? holds.cell_data : holds.field_data;
+}
+
+VtuEncoding vtu_encoding(const WriteOptions& options) {
+    const auto is = [&](std::string_view encoding) { return options.encoding == encoding; };
+    return is("zlib")    ? VtuEncoding::zlib
+           : is("lz4")   ? VtuEncoding::lz4
+           : is("ascii") ? VtuEncoding::ascii
+                         : VtuEncoding::raw;
+}
+
+MshOptions msh_options(const WriteOptions& options) {
+    return {.version = options.version == "2.2" ? MshVersion::v2_2 : MshVersion::v4_1,
+            .ascii = options.encoding == "ascii"};
 }
 
 std::vector<std::string> losses(const Format& format, const Soup& soup, const WriteOptions& options) {

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <optional>
 
@@ -28,6 +30,7 @@ struct ConvertCommand {
     std::string renumber;
     bool boundary = false;
     bool reverse = false;
+    bool split = false;
     io::WriteOptions writing;
 };
 
@@ -86,24 +89,15 @@ void require_dimension(const ConvertCommand& command, const io::Format& format, 
     }
 }
 
-/// Formats of named groups, and those that keep only groups, get groups; all others arrays.
+/// Formats of named groups, and those that keep no arrays, get groups. Where groups lose their names, only
+/// those of hulls, which tell the regions, become arrays.
 void settle_groups(const io::Format& format, io::Soup& soup) {
     const bool arrays_stay = io::keeps(format, soup, io::Over::cells, {"patch", 1, Array<std::int64_t>{}});
-    const bool as_groups = format.holds.groups && (format.holds.group_names || !arrays_stay);
-    as_groups ? arrays_to_groups(soup) : groups_to_arrays(soup);
-}
-
-/// Brings what the soup says into the format's own terms, and tells what is lost.
-void adapt(const ConvertCommand& command, const io::Format& format, io::Soup& soup,
-           const std::vector<std::string>& lost_numbers) {
-    settle_groups(format, soup);
-    std::vector<std::string> lost = io::losses(format, soup, command.writing);
-    lost.insert(lost.end(), lost_numbers.begin(), lost_numbers.end());
-    if (!lost.empty()) {
-        tell(command.out, fmt::format("{} does not hold: {}", format.title, fmt::join(lost, "; ")));
-    }
-    if (format.holds.tags) {
-        number_by_tags(soup);
+    const PatchList& groups = soup.groups[static_cast<std::size_t>(soup.top_dimension())];
+    if (format.holds.groups && (format.holds.group_names || !arrays_stay)) {
+        arrays_to_groups(soup);
+    } else if (!format.holds.groups || patch_number(groups, "terminating") != 0) {
+        groups_to_arrays(soup);
     }
 }
 
@@ -119,12 +113,74 @@ io::MeshColumns columns_to_write(const io::Soup& soup) {
     return mesh;
 }
 
-std::string names_of(const io::AtomicFiles& files) {
-    std::string names;
-    for (const std::filesystem::path& path : files.paths()) {
-        names += (names.empty() ? "" : ", ") + path.string();
+/// OUT's name with the part's before its extension; what is awkward in a file's name becomes '_'.
+std::filesystem::path path_of_part(const std::filesystem::path& out, std::string name) {
+    std::replace_if(
+        name.begin(), name.end(),
+        [](unsigned char c) { return c <= ' ' || c == 127 || std::strchr("/\\:*?\"<>|", c) != nullptr; },
+        '_');
+    std::filesystem::path path{out};
+    return path.replace_filename(out.stem().string() + "_" + name + out.extension().string());
+}
+
+/// Writes one or several soups; their files appear together, when all are complete.
+class Output {
+public:
+    Output(const ConvertCommand& command, const io::Format& format) : command_{command}, format_{format} {}
+
+    /// Brings what the soup says into the format's own terms.
+    void write(const std::filesystem::path& path, io::Soup soup) {
+        require_dimension(command_, format_, soup);
+        settle_groups(format_, soup);
+        add_losses(io::losses(format_, soup, command_.writing));
+        if (format_.holds.tags) {
+            number_by_tags(soup);
+        }
+        const io::MeshColumns mesh = columns_to_write(soup);
+        const std::size_t first = files_.paths().size();
+        format_.write(files_, path, mesh, command_.writing);
+        std::vector<std::string> names;
+        std::transform(files_.paths().begin() + static_cast<std::ptrdiff_t>(first), files_.paths().end(),
+                       std::back_inserter(names), [](const auto& each) { return each.string(); });
+        told_ += fmt::format("{}: {} points, {} {}\n", fmt::join(names, ", "), soup.points.size(),
+                             mesh.cells.rows(), simplices_called(mesh.dimension));
     }
-    return names;
+
+    /// Each once, however many parts lose it.
+    void add_losses(const std::vector<std::string>& lost) {
+        for (const std::string& each : lost) {
+            if (std::find(lost_.begin(), lost_.end(), each) == lost_.end()) {
+                lost_.push_back(each);
+            }
+        }
+    }
+
+    void commit() {
+        if (!lost_.empty()) {
+            tell(command_.out, fmt::format("{} does not hold: {}", format_.title, fmt::join(lost_, "; ")));
+        }
+        files_.commit();
+        fmt::print("{}", told_);
+    }
+
+private:
+    const ConvertCommand& command_;
+    const io::Format& format_;
+    io::AtomicFiles files_;
+    std::vector<std::string> lost_;
+    std::string told_; ///< for stdout
+};
+
+void write_parts(const ConvertCommand& command, const io::Soup& soup, Output& output) {
+    const std::vector<SoupPart> parts = parts_of(soup);
+    if (parts.size() == 1 && parts.front().name == "rest") {
+        throw UsageError{fmt::format("--split-output: {} has neither regions nor patches", command.in)};
+    }
+    for (const SoupPart& part : parts) {
+        io::Soup alone = soup;
+        keep_part(alone, part);
+        output.write(path_of_part(command.out, part.name), std::move(alone));
+    }
 }
 
 int convert(const ConvertCommand& command) {
@@ -136,14 +192,14 @@ int convert(const ConvertCommand& command) {
     const std::vector<std::string> lost_numbers = io::lost_numbers(soup);
     settle_numbers(soup);
     edit(command, soup);
-    require_dimension(command, to, soup);
-    adapt(command, to, soup, lost_numbers);
-    const io::MeshColumns mesh = columns_to_write(soup);
-    io::AtomicFiles files;
-    to.write(files, command.out, mesh, command.writing);
-    files.commit();
-    fmt::print("{}: {} points, {} {}\n", names_of(files), soup.points.size(), mesh.cells.rows(),
-               simplices_called(mesh.dimension));
+    Output output{command, to};
+    if (command.split) {
+        write_parts(command, soup, output);
+    } else {
+        output.write(command.out, std::move(soup));
+    }
+    output.add_losses(lost_numbers);
+    output.commit();
     return 0;
 }
 
@@ -156,6 +212,8 @@ void add_convert(CLI::App& program, int& exit_code) {
     app->add_option("OUT", command->out, "The file to write; whole, or not at all")->required();
     app->add_option("--from", command->from, "Format of IN, whatever its extension");
     app->add_option("--to", command->to, "Format of OUT, whatever its extension");
+    app->add_flag("--split-output", command->split,
+                  "A file for each region and patch: OUT with _initial, _terminating, _PATCH in its name");
     app->add_option("--encoding", command->writing.encoding,
                     "How OUT stores values: binary or ascii (MSH); raw, zlib, lz4 or ascii (VTU)");
     app->add_option("--version", command->writing.version, "Version of OUT's format: 4.1 or 2.2 (MSH)");
@@ -173,8 +231,7 @@ void add_convert(CLI::App& program, int& exit_code) {
                     "Number points and cells along a space-filling curve: curve")
         ->check(CLI::IsMember({"curve"}));
     app->footer("Operations from --region on are done in the order in which they are listed. What OUT's "
-                "format cannot hold is told on "
-                "stderr.\n" +
+                "format cannot hold is told on stderr.\n" +
                 formats_help() +
                 "Example: slabhull convert out/room/slab_0000.vtu side.msh --region side --renumber curve");
     app->callback([command, &exit_code] { exit_code = convert(*command); });

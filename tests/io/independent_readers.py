@@ -94,6 +94,7 @@ def by_gmsh(path):
                 raise RuntimeError(f"physical group {number} has no name")
         return summary(points, cells, dict(gmsh_view(tag) for tag in gmsh.view.getTags()))
     finally:
+        gmsh.logger.stop()
         gmsh.finalize()
 
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slabhull/io/atomic_file.h"
+#include "slabhull/io/files.h"
 #include "slabhull/io/soup.h"
 
 #include <filesystem>
@@ -14,8 +15,8 @@ namespace slabhull::io {
 
 /// How a file shall be written; what is empty is as the format does it by default.
 struct WriteOptions {
-    std::string encoding; ///< one of Format::encodings
-    std::string version;  ///< one of Format::versions
+    std::string encoding; ///< one of Offers::encodings
+    std::string version;  ///< one of Offers::versions
     bool four_dimensional = false;
 };
 
@@ -45,6 +46,13 @@ struct Holds {
     Keeps keeps = nullptr;
 };
 
+/// The ways in which a format can be written, of each list the default first.
+struct Offers {
+    std::vector<std::string_view> encodings{};
+    std::vector<std::string_view> versions{};
+    bool four_dimensional = false; ///< a dialect for points of space-time
+};
+
 /// A file format: how it is called, read and written.
 struct Format {
     using Read = Soup (*)(const std::filesystem::path& path);
@@ -55,14 +63,11 @@ struct Format {
     std::string_view name;                    ///< as users type it: "msh"
     std::string_view title;                   ///< as messages call it: "MSH"
     std::vector<std::string_view> extensions; ///< in lower case, with the dot
+    std::vector<std::string_view> marks;      ///< one of them starts a file; <this stands soon after
     Read read = nullptr;                      ///< nullptr: not read
     Write write = nullptr;                    ///< nullptr: not written
     Holds holds{};                            ///< where it is written
-    std::vector<std::string_view>
-        marks{}; ///< one of these starts a file of it; <this is anywhere at its start
-    std::vector<std::string_view> encodings{}; ///< that it can be written in, the default first
-    std::vector<std::string_view> versions{};  ///< the same
-    bool four_dimensional = false;             ///< has a dialect for points of space-time
+    Offers offers{};
 };
 
 /// All formats, in the order in which extensions are looked up.
@@ -76,6 +81,10 @@ const Format* format_of_content(const std::filesystem::path& path);
 /// Throws UsageError unless the format is written so. `prefix` stands before the options' names ("encoding",
 /// "version", "four-dimensional") in messages: "--".
 void require_offered(const Format& format, const WriteOptions& options, const std::string& prefix);
+
+/// The same for the writers themselves.
+VtuEncoding vtu_encoding(const WriteOptions& options);
+MshOptions msh_options(const WriteOptions& options);
 
 /// What a soup has that the format cannot hold, each in a few words: "point data t, vertex_id".
 std::vector<std::string> losses(const Format& format, const Soup& soup, const WriteOptions& options = {});
