@@ -97,7 +97,14 @@ void AtomicFile::write(const void* bytes, std::size_t size) {
     }
 }
 
+AtomicFile& AtomicFile::companion(const std::filesystem::path& path) {
+    return *companions_.emplace_back(std::make_unique<AtomicFile>(path));
+}
+
 void AtomicFile::finish() {
+    for (const auto& companion : companions_) {
+        companion->finish();
+    }
     if (descriptor_ < 0) {
         return;
     }
@@ -108,6 +115,9 @@ void AtomicFile::finish() {
 
 void AtomicFile::commit() {
     finish();
+    for (const auto& companion : companions_) {
+        companion->commit();
+    }
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
         fail("cannot be put in place");
     }

@@ -7,6 +7,13 @@
 namespace slabhull::io {
 
 void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill) {
+    stream_rows(rows, row_bytes, fill, [&](std::size_t, std::size_t count, const char* bytes) {
+        file.write(bytes, count * row_bytes);
+    });
+}
+
+void stream_rows(std::size_t rows, std::size_t row_bytes, const RowFill& fill,
+                 const std::function<void(std::size_t first, std::size_t count, const char* bytes)>& take) {
     constexpr std::size_t block_bytes = std::size_t{8} << 20;
     constexpr std::size_t pieces = 8;
     const std::size_t block_rows = std::max(pieces, block_bytes / row_bytes);
@@ -16,7 +23,7 @@ void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, cons
         parallel_for(count, block_rows / pieces, [&](std::size_t begin, std::size_t end) {
             fill(first + begin, first + end, block.data() + begin * row_bytes);
         });
-        file.write(block.data(), count * row_bytes);
+        take(first, count, block.data());
     }
 }
 

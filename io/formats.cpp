@@ -50,6 +50,7 @@ const std::vector<Format>& table() {
         {"msh", "MSH", {".msh"}, read_msh, write_msh, msh_holds},
         {"vtu", "VTU", {".vtu"}, read_vtu, write_raw_vtu, vtu_holds},
         {"vtk", "legacy VTK", {".vtk"}, read_vtk, write_vtk, vtu_holds},
+        {"xdmf", "XDMF", {".xdmf", ".xmf"}, read_xdmf, write_xdmf, vtu_holds},
         {"tetgen", "TetGen", {".node", ".ele", ".face", ".poly", ".smesh"}, read_tetgen, nullptr, {}},
         {"medit", "Medit", {".mesh"}, read_medit, write_plain_medit, numbered_groups},
         {"mfem", "MFEM", {".mfem"}, read_mfem, write_mfem, numbered_groups},

@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace slabhull::io {
 
@@ -30,6 +32,12 @@ public:
     void commit();
     /// Where the file will stand.
     std::filesystem::path folder() const { return target_.parent_path(); }
+    const std::filesystem::path& target() const { return target_; }
+    /// Where its bytes stand meanwhile, for libraries that write to a name. The checksum misses what they
+    /// write.
+    const std::filesystem::path& temporary() const { return temporary_; }
+    /// A further file that belongs to this one: it is finished with it, and gets its name just before.
+    AtomicFile& companion(const std::filesystem::path& path);
     /// Sums up what is written from now on.
     void keep_checksum() { checksum_.emplace(); }
     std::uint32_t checksum() const { return checksum_ ? checksum_->value() : 0; }
@@ -42,6 +50,7 @@ private:
     std::filesystem::path temporary_; ///< empty once committed
     int descriptor_ = -1;
     std::optional<Checksum> checksum_;
+    std::vector<std::unique_ptr<AtomicFile>> companions_;
 };
 
 /// Makes a folder and those above it, where they are missing. Throws OutputError.
