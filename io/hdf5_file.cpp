@@ -2,6 +2,7 @@
 #include "hdf5_file.h"
 
 #include "compression.h"
+#include "rehearsal.h"
 #include "slabhull/core/error.h"
 #include "slabhull/io/files.h"
 
@@ -223,6 +224,7 @@ struct Hdf5Dataset::Impl {
     std::vector<std::uint64_t> extents{};
     std::uint64_t count = 1; ///< of the values
     bool reals = false;
+    bool chunked = false;
 
     [[noreturn]] void fail(const std::string& what) const {
         throw InputError(fmt::format("{}: dataset {}: {}", file.name, name, what));
@@ -282,8 +284,9 @@ struct Hdf5Dataset::Impl {
     }
 
     /// A chunk is held in memory whole.
-    void check_chunk(const Handle& creation, std::uint64_t value_bytes, std::uint64_t most) const {
-        if (H5Pget_layout(creation) != H5D_CHUNKED) {
+    void check_chunk(const Handle& creation, std::uint64_t value_bytes, std::uint64_t most) {
+        chunked = H5Pget_layout(creation) == H5D_CHUNKED;
+        if (!chunked) {
             return;
         }
         std::array<hsize_t, H5S_MAX_RANK> sides{};
@@ -321,6 +324,17 @@ struct Hdf5Dataset::Impl {
         if (count == 0) {
             return;
         }
+        const auto transfer = [&] { transfer_to(out, rows, used, width); };
+        if (chunked) { // which HDF5 must understand, other than plain bytes
+            rehearse(fmt::format("{}: dataset {}", file.name, name), 2 * count * sizeof(T) + file.bytes,
+                     transfer);
+        }
+        transfer();
+    }
+
+    template<class T>
+    void transfer_to(T* out, std::size_t rows, std::size_t used, std::size_t width) const {
+        const Silence silence;
         const std::array<hsize_t, 2> all{rows, width};
         const std::array<hsize_t, 2> set{rows, used};
         const std::array<hsize_t, 2> begin{0, 0};
@@ -328,11 +342,10 @@ struct Hdf5Dataset::Impl {
         if (used != width) {
             H5Sselect_hyperslab(memory, H5S_SELECT_SET, begin.data(), nullptr, set.data(), nullptr);
         }
-        const Silence silence;
         bool out_of_range = false;
-        const Handle transfer{H5Pcreate(H5P_DATASET_XFER), H5Pclose};
-        H5Pset_type_conv_cb(transfer, note_range, &out_of_range);
-        if (H5Dread(data, native_type<T>(), memory, H5S_ALL, transfer, out) < 0) {
+        const Handle settings{H5Pcreate(H5P_DATASET_XFER), H5Pclose};
+        H5Pset_type_conv_cb(settings, note_range, &out_of_range);
+        if (H5Dread(data, native_type<T>(), memory, H5S_ALL, settings, out) < 0) {
             fail(out_of_range ? std::string{"it has a number that is negative or too large"}
                               : fmt::format("it cannot be read: {}", cause()));
         }
@@ -340,28 +353,37 @@ struct Hdf5Dataset::Impl {
 };
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) {
-    const Silence silence;
     const std::uint64_t bytes = size_of_file(path);
-    impl_.reset(
-        new Impl{path.string(), bytes, {H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose}});
-    if (impl_->file < 0) {
-        throw InputError(fmt::format("{}: it cannot be read as HDF5: {}", impl_->name, cause()));
-    }
+    const auto open = [&] {
+        const Silence silence;
+        impl_.reset(
+            new Impl{path.string(), bytes, {H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose}});
+        if (impl_->file < 0) {
+            throw InputError(fmt::format("{}: it cannot be read as HDF5: {}", impl_->name, cause()));
+        }
+    };
+    rehearse(path.string(), bytes, open);
+    open();
 }
 Hdf5Reader::~Hdf5Reader() = default;
 Hdf5Reader::Hdf5Reader(Hdf5Reader&&) noexcept = default;
 
 Hdf5Dataset Hdf5Reader::open(const std::string& dataset) {
-    const Silence silence;
-    const Handle access{H5Pcreate(H5P_DATASET_ACCESS), H5Pclose};
-    H5Pset_elink_cb(access, refuse_link, nullptr);
-    std::unique_ptr<Hdf5Dataset::Impl> opened{
-        new Hdf5Dataset::Impl{*impl_, dataset, {H5Dopen2(impl_->file, dataset.c_str(), access), H5Dclose}}};
-    if (opened->data < 0) {
-        opened->fail(fmt::format("it cannot be opened: {}", cause()));
-    }
-    opened->find_extents();
-    opened->check_storage();
+    std::unique_ptr<Hdf5Dataset::Impl> opened;
+    const auto open = [&] {
+        const Silence silence;
+        const Handle access{H5Pcreate(H5P_DATASET_ACCESS), H5Pclose};
+        H5Pset_elink_cb(access, refuse_link, nullptr);
+        opened.reset(new Hdf5Dataset::Impl{
+            *impl_, dataset, {H5Dopen2(impl_->file, dataset.c_str(), access), H5Dclose}});
+        if (opened->data < 0) {
+            opened->fail(fmt::format("it cannot be opened: {}", cause()));
+        }
+        opened->find_extents();
+        opened->check_storage();
+    };
+    rehearse(fmt::format("{}: dataset {}", impl_->name, dataset), impl_->bytes, open);
+    open();
     return Hdf5Dataset{std::move(opened)};
 }
 

@@ -5,6 +5,7 @@
 #include "slabhull/geometry/mesh_order.h"
 #include "slabhull/slab/soup_numbers.h"
 #include "slabhull/topology/adjacency.h"
+#include "slabhull/topology/spatial_mesh.h"
 #include "soup_cells.h"
 #include "soup_rows.h"
 
@@ -92,19 +93,6 @@ void require_distinct_vertices(const io::Soup& soup, const Array<Simplex<D>>& ce
     }
 }
 
-/// The facet opposite to vertex i, oriented outward.
-template<int D>
-Facet<D> outer_facet(const Simplex<D>& cell, std::size_t i) {
-    Facet<D> facet;
-    std::copy(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(i), facet.begin());
-    std::copy(cell.begin() + static_cast<std::ptrdiff_t>(i) + 1, cell.end(),
-              facet.begin() + static_cast<std::ptrdiff_t>(i));
-    if (i % 2 == 1) {
-        std::swap(facet[0], facet[1]);
-    }
-    return facet;
-}
-
 template<int D>
 struct Boundary {
     Array<Facet<D>> facets;
@@ -125,7 +113,7 @@ Boundary<D> boundary_of(const io::Soup& soup) {
     Boundary<D> boundary;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         for (std::size_t i = 0; i <= D; ++i) {
-            const Facet<D> facet = outer_facet<D>(cells[c], i);
+            const Facet<D> facet = outward_facet<D>(cells[c], static_cast<int>(i));
             if (adjacency.neighbors[c][i] == no_index && !overfull.contains(sorted(facet))) {
                 boundary.facets.push_back(facet);
                 boundary.cells.push_back(static_cast<Index>(c));
