@@ -320,7 +320,6 @@ TEMPLATE_TEST_CASE_SIG("Scaling multiplies caps and what is enclosed by the powe
     if constexpr (D == 2) {
         CHECK(has_time_as_coordinate(scaled));
     }
-    scale(scaled, 1 / 2.5);
     scale(soup, 4); // powers of two lose nothing
     scale(soup, 0.25);
     CHECK(bytes_of(soup) == bytes_of(hull_soup<D>()));
@@ -341,9 +340,11 @@ TEMPLATE_TEST_CASE_SIG("Renumbering keeps the set of simplices with their data, 
         place_of[before[v]] = place(soup, static_cast<Index>(v));
     }
     REQUIRE(after.size() == before.size());
+    std::size_t moved = 0;
     for (std::size_t v = 0; v < after.size(); ++v) {
-        CHECK(place_of.at(after[v]) == place(curve, static_cast<Index>(v)));
+        moved += place_of.at(after[v]) == place(curve, static_cast<Index>(v)) ? 0 : 1;
     }
+    CHECK(moved == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("The regions make the hull together, each with right adjacency and its points only",
@@ -485,10 +486,12 @@ TEMPLATE_TEST_CASE_SIG("Welding asks for nearness in space-time, and collapsed c
     const Welded through_time = weld(flat, 0.51);
     CHECK(through_time.points > 0);
     CHECK(through_time.cells > 0);
+    bool distinct = true;
     for (std::size_t c = 0; c < cell_count(flat); ++c) {
         const Index* v = &flat.simplices[D].vertices[c * (D + 1)];
-        CHECK(std::set<Index>(v, v + D + 1).size() == D + 1);
+        distinct = distinct && std::set<Index>(v, v + D + 1).size() == D + 1;
     }
+    CHECK(distinct);
 }
 
 TEMPLATE_TEST_CASE_SIG("Arrays become groups and groups arrays, and the hull is the same", "[slab]",
@@ -499,13 +502,17 @@ TEMPLATE_TEST_CASE_SIG("Arrays become groups and groups arrays, and the hull is 
     CHECK(grouped.find_cell_data("region") == nullptr);
     REQUIRE(grouped.simplices[D].physical.size() == cell_count(soup));
     const auto number = [&](const char* name) { return patch_number(grouped.groups[D], name); };
+    std::size_t right = 0;
     for (std::size_t c = 0; c < cell_count(soup); ++c) {
         const std::int64_t region = values<std::int64_t>(soup.cell_data, "region")[c];
         const PatchNumber group = grouped.simplices[D].physical[c];
-        CHECK(group == (region == 0   ? number("initial")
-                        : region == 2 ? number("terminating")
-                                      : values<std::int64_t>(soup.cell_data, "patch")[c]));
+        right += group == (region == 0   ? number("initial")
+                           : region == 2 ? number("terminating")
+                                         : values<std::int64_t>(soup.cell_data, "patch")[c])
+                     ? 1
+                     : 0;
     }
+    CHECK(right == cell_count(soup));
     for (int region = 0; region < 3; ++region) { // selecting goes by either
         io::Soup by_group = grouped;
         io::Soup by_array = soup;
@@ -526,9 +533,8 @@ TEMPLATE_TEST_CASE_SIG("Neighbors as element tags come back as numbers from 0", 
     number_by_tags(tagged);
     const Numbers& before = values<std::int64_t>(soup.cell_data, "neighbors");
     const Numbers& tags = values<std::int64_t>(tagged.cell_data, "neighbor");
-    for (std::size_t i = 0; i < tags.size(); ++i) {
-        CHECK(tags[i] == before[i] + 1);
-    }
+    CHECK(std::equal(tags.begin(), tags.end(), before.begin(), before.end(),
+                     [](std::int64_t tag, std::int64_t cell) { return tag == cell + 1; }));
     CHECK(adjacency_is_right(soup));
     io::Soup through_msh = hull_soup<D>("msh"); // settle_numbers() read it
     CHECK(values<std::int64_t>(through_msh.cell_data, "neighbors") == before);
