@@ -10,10 +10,18 @@ namespace slabhull::io {
 
 namespace {
 constexpr std::size_t least_rows = 4096; ///< that are worth a thread
+
+/// Rows [first, first + count), made by several threads.
+void fill_rows(std::size_t first, std::size_t count, std::size_t row_bytes, const RowFill& fill, char* out) {
+    constexpr std::size_t pieces = 8;
+    parallel_for(count, std::max(least_rows, count / pieces), [&](std::size_t begin, std::size_t end) {
+        fill(first + begin, first + end, out + begin * row_bytes);
+    });
 }
 
+} // namespace
+
 void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill) {
-    constexpr std::size_t pieces = 8;
     std::vector<char> split(row_bytes); // a row that reaches into the next block
     for (std::size_t first = 0; first < rows;) {
         const std::span<char> room = file.room();
@@ -24,11 +32,21 @@ void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, cons
             ++first;
             continue;
         }
-        parallel_for(count, std::max(least_rows, count / pieces), [&](std::size_t begin, std::size_t end) {
-            fill(first + begin, first + end, room.data() + begin * row_bytes);
-        });
+        fill_rows(first, count, row_bytes, fill, room.data());
         file.advance(count * row_bytes);
         first += count;
+    }
+}
+
+void stream_rows(std::size_t rows, std::size_t row_bytes, const RowFill& fill,
+                 const std::function<void(std::size_t first, std::size_t count, const char* bytes)>& take) {
+    constexpr std::size_t block_bytes = std::size_t{8} << 20;
+    const std::size_t block_rows = std::max<std::size_t>(1, block_bytes / row_bytes);
+    Array<char> block(std::min(rows, block_rows) * row_bytes);
+    for (std::size_t first = 0; first < rows; first += block_rows) {
+        const std::size_t count = std::min(rows - first, block_rows);
+        fill_rows(first, count, row_bytes, fill, block.data());
+        take(first, count, block.data());
     }
 }
 

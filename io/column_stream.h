@@ -20,6 +20,9 @@ using RowFill = std::function<void(std::size_t begin, std::size_t end, char* out
 
 /// Writes rows to the file, large blocks at a time; within a block they are made by several threads.
 void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill);
+/// The same, the bytes of each `count` rows from `first` on handed to `take` in order.
+void stream_rows(std::size_t rows, std::size_t row_bytes, const RowFill& fill,
+                 const std::function<void(std::size_t first, std::size_t count, const char* bytes)>& take);
 
 /// Writes the rows [begin, end), each of any length up to the longest, to `out` and returns where they end.
 using TextFill = std::function<char*(std::size_t begin, std::size_t end, char* out)>;

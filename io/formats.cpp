@@ -49,6 +49,11 @@ void write_tetgen_as(AtomicFiles& files, const std::filesystem::path& path, cons
     write_tetgen(files, path, mesh);
 }
 
+void write_xdmf_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
+                   const WriteOptions&) {
+    write_xdmf(files, path, mesh);
+}
+
 void write_medit_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                     const WriteOptions& options) {
     write_medit(files.open(path), mesh, {.four_dimensional = options.four_dimensional});
@@ -123,6 +128,7 @@ const std::vector<Format>& table() {
         {"msh", "MSH", {".msh"}, {"$MeshFormat", "$Comments"}, read_msh, write_msh_as, msh_holds, msh_offers},
         {"vtu", "VTU", {".vtu"}, {"<VTKFile"}, read_vtu, write_vtu_as, vtu_holds, vtu_offers},
         {"vtk", "legacy VTK", {".vtk"}, {"# vtk DataFile"}, read_vtk, alone<write_vtk>, vtu_holds},
+        {"xdmf", "XDMF", {".xdmf", ".xmf"}, no_mark, read_xdmf, write_xdmf_as, vtu_holds},
         {"tetgen",
          "TetGen",
          {".node", ".ele", ".face", ".poly", ".smesh"},

@@ -5,6 +5,7 @@
 #include "slabhull/geometry/mesh_order.h"
 #include "slabhull/slab/soup_numbers.h"
 #include "slabhull/topology/adjacency.h"
+#include "slabhull/topology/spatial_mesh.h"
 #include "soup_cells.h"
 #include "soup_rows.h"
 

@@ -37,7 +37,8 @@ struct PlaceHash {
 class PointGrid {
 public:
     PointGrid(const io::Soup& soup, double tolerance)
-        : points_{soup.points}, times_{soup_times(soup)}, tolerance_{tolerance} {}
+        : points_{soup.points}, times_{has_time_as_coordinate(soup) ? nullptr : soup_times(soup)},
+          tolerance_{tolerance} {}
 
     /// An earlier one that is near, or v itself, which stays then.
     Index keep(Index v) {

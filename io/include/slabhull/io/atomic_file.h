@@ -40,6 +40,10 @@ public:
     void commit();
     /// Where the file will stand.
     std::filesystem::path folder() const { return target_.parent_path(); }
+    const std::filesystem::path& target() const { return target_; }
+    /// Where its bytes stand meanwhile, for libraries that write to a name. The checksum misses what they
+    /// write.
+    const std::filesystem::path& temporary() const { return temporary_; }
     /// Sums up what is written from now on.
     void keep_checksum() { checksum_.emplace(); }
     std::uint32_t checksum() const { return checksum_ ? checksum_->value() : 0; }

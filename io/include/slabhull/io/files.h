@@ -44,6 +44,15 @@ Soup read_vtk(const std::filesystem::path& path);
 /// attributes or "marker" of cells, "neighbors" from 0 (checked, -1 for none), "holes" (3 components) and
 /// "regions" (5) of the field. Attributes are doubles called attribute_0 .., or as write_tetgen() names them.
 Soup read_tetgen(const std::filesystem::path& path);
+/// XDMF (.xdmf, .xmf), versions 2 and 3: one uniform grid of Polyvertex, Polyline of two points, Triangle,
+/// Tetrahedron or Mixed cells (of which each simplex keeps its number as its tag, and cell data those of the
+/// largest dimension), Geometry XYZ or XY, plain DataItems as text, in binary files or in HDF5, there packed
+/// by deflate or not. Attributes of the grid and what write_xdmf() keeps as Information are field data.
+/// Datasets are believed only as far as the HDF5 file is large enough. Throws UsageError for HDF5 in a build
+/// without it.
+Soup read_xdmf(const std::filesystem::path& path);
+/// Whether this build has HDF5.
+bool has_hdf5();
 /// A file of any format of io/formats.h, by extension or else by content.
 Soup read_mesh(const std::filesystem::path& path);
 
@@ -109,6 +118,14 @@ void write_msh(AtomicFile& file, const MeshColumns& mesh, const MshOptions& opti
 /// that both VTK, where a long has 64 bits, and meshio know), text arrays as bytes whose component is called
 /// slabhull_text. Throws LimitError when the format's 32 bits do not count the points or the values of CELLS.
 void write_vtk(AtomicFile& file, const MeshColumns& mesh);
+
+/// XDMF 3 for NAME.xdmf, and the data in NAME.h5 beside it, which gets its name just before; plain, in
+/// datasets /points, /cells, /point_data/.., /cell_data/.., /field_data/... Field data are Information, which
+/// other readers pass over. Tetrahedra with real point data `t` have x, y, z, t side by side in /xyzt, too.
+/// HDF5 must not be used by other threads meanwhile. Throws UsageError when the file itself is called NAME.h5
+/// and in a build without HDF5.
+void write_xdmf(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh);
+void write_xdmf(const std::filesystem::path& path, const MeshColumns& mesh);
 
 /// TetGen's files, numbered from 0, stem.node and: of tetrahedra stem.ele, with cell data "neighbors" of 4
 /// components stem.neigh, with triangles beside them (MeshColumns::lower) stem.face; of triangles stem.face
