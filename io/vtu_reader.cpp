@@ -6,6 +6,7 @@
 #include "file_cursor.h"
 #include "vtk_names.h"
 #include "vtu_payload.h"
+#include "vtu_pieces.h"
 
 #include <algorithm>
 #include <bit>
@@ -60,7 +61,7 @@ public:
         soup_.path = path;
     }
 
-    Soup read() {
+    Soup read(bool may_be_empty) {
         parse_xml();
         const pugi::xml_node grid = open_grid();
         for (const pugi::xml_node node : grid.child("FieldData").children()) {
@@ -69,7 +70,7 @@ public:
         for (const pugi::xml_node piece : grid.children("Piece")) {
             read_piece(piece);
         }
-        if (dimension_ == 0) {
+        if (dimension_ == 0 && !(may_be_empty && soup_.points.empty())) {
             fail(grid, "there are no cells");
         }
         return std::move(soup_);
@@ -452,7 +453,29 @@ private:
 
 Soup read_vtu(const std::filesystem::path& path) {
     const Array<char> bytes = read_bytes(path);
-    return VtuReader{{bytes.data(), bytes.size()}, path.string()}.read();
+    return VtuReader{{bytes.data(), bytes.size()}, path.string()}.read(false);
+}
+
+Soup read_vtu_piece(const std::filesystem::path& path) {
+    const Array<char> bytes = read_bytes(path);
+    return VtuReader{{bytes.data(), bytes.size()}, path.string()}.read(true);
+}
+
+std::vector<std::string> pvtu_sources(const std::filesystem::path& path) {
+    const Array<char> bytes = read_bytes(path);
+    pugi::xml_document document;
+    const pugi::xml_parse_result result =
+        document.load_buffer(bytes.data(), bytes.size(), pugi::parse_default, pugi::encoding_utf8);
+    const pugi::xml_node grid = document.child("VTKFile").child("PUnstructuredGrid");
+    if (!result || !grid) {
+        throw InputError(fmt::format("{}: byte {}: this is no PVTU file{}{}", path.string(), result.offset,
+                                     result ? "" : ": ", result ? "" : result.description()));
+    }
+    std::vector<std::string> sources;
+    for (const pugi::xml_node piece : grid.children("Piece")) {
+        sources.emplace_back(piece.attribute("Source").value());
+    }
+    return sources;
 }
 
 } // namespace slabhull::io
