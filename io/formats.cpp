@@ -51,7 +51,7 @@ constexpr Holds triangles_only{.least_dimension = 2, .most_dimension = 2};
 /// A line for each format; one without a writer says nothing of what it holds.
 const std::vector<Format>& table() {
     static const std::vector<Format> all{
-        {"msh", "MSH", {".msh"}, read_msh, write_msh, msh_holds},
+        {"msh", "MSH", {".msh"}, read_msh, write_msh, msh_holds, write_msh_pieces},
         {"vtu", "VTU", {".vtu"}, read_vtu, write_raw_vtu, vtu_holds},
         {"pvtu", "partitioned VTU", {".pvtu"}, read_pvtu, nullptr, vtu_holds, write_pvtu_pieces},
         {"vtk", "legacy VTK", {".vtk"}, read_vtk, write_vtk, vtu_holds},

@@ -99,6 +99,16 @@ std::vector<MeshColumns::Group> groups_within(const std::vector<MeshColumns::Gro
     return groups;
 }
 
+std::vector<MeshColumns::Group> groups_of_members(std::vector<MeshColumns::Group> groups,
+                                                  const PointSet& members) {
+    for (MeshColumns::Group& group : groups) {
+        group.begin = members.rank(group.begin);
+        group.end = members.rank(group.end);
+    }
+    std::erase_if(groups, [](const MeshColumns::Group& group) { return group.begin == group.end; });
+    return groups;
+}
+
 /// A data array of that name would be taken for ours.
 void require_no_global_numbers(const MeshColumns& mesh) {
     for (const auto* arrays : {&mesh.point_data, &mesh.cell_data}) {
@@ -130,11 +140,34 @@ MeshPieces::MeshPieces(const MeshColumns& mesh, std::size_t pieces)
                                      mesh.cells.rows(), mesh.cells.rows())};
     }
     require_no_global_numbers(mesh);
+    for (const MeshColumns::Part& part : mesh.lower) {
+        taken_.emplace_back(part.cells.rows());
+    }
 }
 
 std::size_t MeshPieces::first_cell(std::size_t piece) const {
     const std::size_t cells = mesh_.cells.rows();
     return cells / pieces_ * piece + std::min(piece, cells % pieces_);
+}
+
+/// Adds to the points where the last piece takes what is left.
+std::shared_ptr<const PointSet> MeshPieces::choose_lower(std::size_t part, PointSet& points) {
+    const Column<std::int64_t>& cells = mesh_.lower[part].cells;
+    auto chosen = std::make_shared<PointSet>(cells.rows());
+    for_each_row(cells, 0, cells.rows(), [&](std::size_t cell, const std::int64_t* vertices) {
+        const std::int64_t* end = vertices + cells.components();
+        const auto here = [&](std::int64_t vertex) {
+            return points.contains(static_cast<std::size_t>(vertex));
+        };
+        if (!taken_[part].contains(cell) && (at_end() || std::all_of(vertices, end, here))) {
+            chosen->insert(cell);
+            std::for_each(vertices, end,
+                          [&](std::int64_t vertex) { points.insert(static_cast<std::size_t>(vertex)); });
+        }
+    });
+    taken_[part].insert(*chosen);
+    chosen->count();
+    return chosen;
 }
 
 MeshPiece MeshPieces::next() {
@@ -146,6 +179,10 @@ MeshPiece MeshPieces::next() {
             points->insert(static_cast<std::size_t>(vertices[k]));
         }
     });
+    MeshPiece piece{{}, first, points, {}};
+    for (std::size_t part = 0; part < mesh_.lower.size(); ++part) {
+        piece.lower.push_back(choose_lower(part, *points));
+    }
     used_.insert(*points);
     if (at_end()) {
         points->insert_complement(used_);
@@ -153,7 +190,6 @@ MeshPiece MeshPieces::next() {
     points->count();
     const auto cells = [&](const auto& column) { return of_cells(column, first, count); };
 
-    MeshPiece piece{{}, first, points};
     piece.mesh.dimension = mesh_.dimension;
     piece.mesh.points = of_points(mesh_.points, piece.points);
     piece.mesh.cells = renumbered(cells(mesh_.cells), piece.points);
@@ -164,6 +200,12 @@ MeshPiece MeshPieces::next() {
     piece.mesh.cell_data.push_back(numbers_from(first, count));
     piece.mesh.field_data = mesh_.field_data;
     piece.mesh.groups = groups_within(mesh_.groups, first, first + count);
+    for (std::size_t part = 0; part < mesh_.lower.size(); ++part) {
+        const MeshColumns::Part& all = mesh_.lower[part];
+        piece.mesh.lower.push_back({all.dimension,
+                                    renumbered(of_points(all.cells, piece.lower[part]), piece.points),
+                                    groups_of_members(all.groups, *piece.lower[part])});
+    }
     return piece;
 }
 

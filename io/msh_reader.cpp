@@ -358,8 +358,8 @@ private:
         read_rows(block, dimension, count);
     }
 
-    /// Addresses for all elements that may follow, so that the arrays never move: memory is taken only by those
-    /// that come.
+    /// Addresses for all elements that may follow, so that the arrays never move: memory is taken only by
+    /// those that come.
     void reserve_elements(SimplexBlock& block, std::size_t dimension) const {
         if (!block.tags.empty()) {
             return;

@@ -2,11 +2,10 @@
 // The MSH 4.1 format is described in the Gmsh reference manual, section "MSH file format".
 #include "slabhull/io/files.h"
 
-#include "cell_groups.h"
 #include "column_stream.h"
 #include "gmsh_types.h"
+#include "msh_parts.h"
 #include "slabhull/core/error.h"
-#include "slabhull/core/parallel.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -18,60 +17,6 @@ namespace slabhull::io {
 
 namespace {
 
-struct Box {
-    Point<3> min;
-    Point<3> max;
-};
-
-Box box_of(const Column<double>& points) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr std::size_t grain = 65536;
-    const std::size_t pieces = (points.rows() + grain - 1) / grain;
-    std::vector<Box> boxes(pieces, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}});
-    parallel_for(points.rows(), grain, [&](std::size_t begin, std::size_t end) {
-        Box& box = boxes[begin / grain];
-        for_each_row(points, begin, end, [&](std::size_t, const double* x) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                box.min[i] = std::min(box.min[i], x[i]);
-                box.max[i] = std::max(box.max[i], x[i]);
-            }
-        });
-    });
-    Box whole = boxes.empty() ? Box{} : boxes.front();
-    for (const Box& box : boxes) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            whole.min[i] = std::min(whole.min[i], box.min[i]);
-            whole.max[i] = std::max(whole.max[i], box.max[i]);
-        }
-    }
-    return whole;
-}
-
-/// The cells of one dimension.
-struct Part {
-    using Group = MeshColumns::Group;
-
-    int dimension;
-    const Column<std::int64_t>& cells;
-    std::vector<Group> groups;
-    std::vector<PatchNumber> entities; ///< the number of each one's physical group; groups may share one
-    std::size_t tags_before = 0;       ///< element tags used before this part's
-
-    Part(int its_dimension, const Column<std::int64_t>& its_cells, const std::vector<Group>& given)
-        : dimension{its_dimension}, cells{its_cells}, groups{checked_groups(its_cells, given, "write_msh")} {
-        for (const Group& group : groups) {
-            if (std::find(entities.begin(), entities.end(), group.number) == entities.end()) {
-                entities.push_back(group.number);
-            }
-        }
-    }
-
-    std::size_t entity_of(const Group& group) const {
-        const auto place = std::find(entities.begin(), entities.end(), group.number);
-        return 1 + static_cast<std::size_t>(place - entities.begin());
-    }
-};
-
 /// The name of a group as MSH has it, in double quotes, for which there is no escape.
 const std::string& quotable(const std::string& name) {
     if (name.find_first_of("\"\n\r") != std::string::npos) {
@@ -82,25 +27,26 @@ const std::string& quotable(const std::string& name) {
     return name;
 }
 
-class MshWriter {
-public:
-    MshWriter(AtomicFile& file, const MeshColumns& mesh) : mesh_{mesh}, file_{file} {
-        parts_.emplace_back(mesh.dimension, mesh.cells, mesh.groups);
-        for (const MeshColumns::Part& part : mesh.lower) {
-            parts_.emplace_back(part.dimension, part.cells, part.groups);
-        }
-        for (Part& part : parts_) {
-            part.tags_before = elements_;
-            elements_ += part.cells.rows();
+void require_rows(const char* section, const std::vector<DataColumn>& columns) {
+    for (const DataColumn& data : columns) {
+        const std::size_t rows = rows_of(data);
+        if (rows > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+            throw LimitError(
+                fmt::format("\"{}\" has {} rows, but ${} in an MSH file counts in 32 bits; write VTU",
+                            data.name, rows, section));
         }
     }
+}
+
+class MshWriter {
+public:
+    MshWriter(AtomicFile& file, const MeshColumns& mesh)
+        : mesh_{mesh}, parts_{msh_parts(mesh)},
+          elements_{parts_.back().tags_before + parts_.back().cells.rows()}, file_{file} {}
 
     void write() {
-        require_rows("NodeData", mesh_.point_data);
-        require_rows("ElementData", mesh_.cell_data);
-        write_format();
-        write_physical_names();
-        write_entities();
+        require_msh_rows(mesh_);
+        write_head(box_of(mesh_.points));
         write_nodes();
         write_elements();
         for (const DataColumn& data : mesh_.point_data) {
@@ -109,6 +55,12 @@ public:
         for (const DataColumn& data : mesh_.cell_data) {
             write_data("ElementData", data);
         }
+    }
+
+    void write_head(const Box& box) {
+        write_format();
+        write_physical_names();
+        write_entities(box);
     }
 
 private:
@@ -130,7 +82,7 @@ private:
     void write_physical_names() {
         std::set<std::pair<int, PatchNumber>> named;
         std::string lines;
-        for (const Part& part : parts_) {
+        for (const MshPart& part : parts_) {
             for (const Group& group : part.groups) {
                 if (group.number > 0 && !group.name.empty() &&
                     named.emplace(part.dimension, group.number).second) {
@@ -145,28 +97,27 @@ private:
     }
 
     /// The discrete entities, numbered from 1 in each dimension, in the box of the whole mesh.
-    void write_entities() {
+    void write_entities(const Box& box) {
         file_.write("$Entities\n");
         for (int dimension = 0; dimension <= 3; ++dimension) {
-            const Part* part = part_of(dimension);
+            const MshPart* part = part_of(dimension);
             put_size(part != nullptr ? part->entities.size() : 0);
         }
-        const Box box = box_of(mesh_.points);
         for (int dimension = 0; dimension <= 3; ++dimension) {
-            if (const Part* part = part_of(dimension)) {
+            if (const MshPart* part = part_of(dimension)) {
                 write_entities(*part, box);
             }
         }
         file_.write("\n$EndEntities\n");
     }
 
-    const Part* part_of(int dimension) const {
+    const MshPart* part_of(int dimension) const {
         const auto found = std::find_if(parts_.begin(), parts_.end(),
-                                        [=](const Part& part) { return part.dimension == dimension; });
+                                        [=](const MshPart& part) { return part.dimension == dimension; });
         return found == parts_.end() ? nullptr : &*found;
     }
 
-    void write_entities(const Part& part, const Box& box) {
+    void write_entities(const MshPart& part, const Box& box) {
         for (std::size_t i = 0; i < part.entities.size(); ++i) {
             put_int(i + 1);
             part.dimension == 0 ? put_value(box.min) : put_value(box);
@@ -212,12 +163,12 @@ private:
     void write_elements() {
         const auto filled = [](const Group& group) { return group.end > group.begin; };
         std::ptrdiff_t blocks = 0;
-        for (const Part& part : parts_) {
+        for (const MshPart& part : parts_) {
             blocks += std::count_if(part.groups.begin(), part.groups.end(), filled);
         }
         file_.write("$Elements\n");
         put_section_head(static_cast<std::size_t>(blocks), elements_);
-        for (const Part& part : parts_) {
+        for (const MshPart& part : parts_) {
             for (const Group& group : part.groups) {
                 if (filled(group)) {
                     write_block(part, group);
@@ -227,7 +178,7 @@ private:
         file_.write("\n$EndElements\n");
     }
 
-    void write_block(const Part& part, const Group& group) {
+    void write_block(const MshPart& part, const Group& group) {
         const std::size_t corners = static_cast<std::size_t>(part.dimension) + 1;
         const auto type = static_cast<std::size_t>(gmsh_simplex_type(part.dimension));
         const std::size_t tag = part.tags_before + 1;
@@ -242,18 +193,6 @@ private:
                                          }
                                      });
                     });
-    }
-
-    /// Before anything is written, as what cannot be must not take an hour to say.
-    static void require_rows(const char* section, const std::vector<DataColumn>& columns) {
-        for (const DataColumn& data : columns) {
-            const std::size_t rows = rows_of(data);
-            if (rows > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-                throw LimitError(
-                    fmt::format("\"{}\" has {} rows, but ${} in an MSH file counts in 32 bits; write VTU",
-                                data.name, rows, section));
-            }
-        }
     }
 
     void write_data(const char* section, const DataColumn& data) {
@@ -279,12 +218,22 @@ private:
     }
 
     const MeshColumns& mesh_;
-    std::vector<Part> parts_; ///< the cells first, so that their tags are their numbers from 1
-    std::size_t elements_ = 0;
+    std::vector<MshPart> parts_; ///< the cells first, so that their tags are their numbers from 1
+    std::size_t elements_;
     AtomicFile& file_;
 };
 
 } // namespace
+
+/// Before anything is written, as what cannot be must not take an hour to say.
+void require_msh_rows(const MeshColumns& mesh) {
+    require_rows("NodeData", mesh.point_data);
+    require_rows("ElementData", mesh.cell_data);
+}
+
+void write_msh_head(AtomicFile& file, const MeshColumns& mesh, const Box& box) {
+    MshWriter{file, mesh}.write_head(box);
+}
 
 void write_msh(AtomicFile& file, const MeshColumns& mesh) {
     MshWriter{file, mesh}.write();

@@ -7,12 +7,15 @@
 
 namespace slabhull::io {
 
-/// Some of the points of a mesh, numbered in ascending order: a bit per point and a count per 512. Reading is
-/// safe from several threads.
+/// Some of the points of a mesh (or of its cells), numbered in ascending order: a bit per point and a count
+/// per 512. Reading is safe from several threads.
 class PointSet {
 public:
     explicit PointSet(std::size_t points) : points_{points}, words_(words_for(points)) {}
 
+    bool contains(std::size_t point) const {
+        return (words_[point / word_bits] >> point % word_bits & 1) != 0;
+    }
     void insert(std::size_t point) { words_[point / word_bits] |= std::uint64_t{1} << point % word_bits; }
     /// Also all points that the other does not have.
     void insert_complement(const PointSet& other);
@@ -21,7 +24,7 @@ public:
     void count();
 
     std::size_t size() const { return size_; }
-    /// The number of a member: how many are smaller.
+    /// The number of a member: how many are smaller. The end is as good as a member.
     std::size_t rank(std::size_t point) const;
     /// The member of that number, which must be below size().
     std::size_t member(std::size_t rank) const;

@@ -69,8 +69,8 @@ private:
 
     void parse_xml() {
         std::string& xml = skeleton_.xml();
-        const pugi::xml_parse_result result = document_.load_buffer_inplace(
-            xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
+        const pugi::xml_parse_result result =
+            document_.load_buffer_inplace(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
         if (!result) {
             fail_at(skeleton_.in_file(result.offset),
                     fmt::format("this is no VTU file: {}", result.description()));
@@ -324,8 +324,9 @@ private:
                 dimension_ = dimension_of(type);
             }
             if (type != vtk_simplex_type(static_cast<int>(dimension_))) {
-                fail(node, fmt::format("cell {} is a {}; only lines, only triangles or only tetrahedra are read",
-                                       cell, vtk_type_name(static_cast<int>(type & 0xFF))));
+                fail(node,
+                     fmt::format("cell {} is a {}; only lines, only triangles or only tetrahedra are read",
+                                 cell, vtk_type_name(static_cast<int>(type & 0xFF))));
             }
         });
     }
@@ -472,9 +473,9 @@ private:
     VtuSkeleton skeleton_;
     pugi::xml_document document_;
     PayloadFormat format_;
-    std::uint64_t consumed_ = 0;  ///< bytes of the file that made arrays
-    std::size_t dimension_ = 0;   ///< 0 until there was a cell
-    std::size_t first_point_ = 0; ///< of the piece
+    std::uint64_t consumed_ = 0;   ///< bytes of the file that made arrays
+    std::size_t dimension_ = 0;    ///< 0 until there was a cell
+    std::size_t first_point_ = 0;  ///< of the piece
     std::uint64_t all_points_ = 0; ///< that the pieces claim
     std::uint64_t all_cells_ = 0;
     bool is_first_piece_ = true;

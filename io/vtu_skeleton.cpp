@@ -113,15 +113,14 @@ FileRange VtuSkeleton::text(std::ptrdiff_t byte) const {
     const auto found =
         std::lower_bound(places_.begin(), places_.end(), static_cast<std::size_t>(byte),
                          [](const Place& place, std::size_t wanted) { return place.byte < wanted; });
-    return byte >= 0 && found != places_.end() && found->byte == static_cast<std::size_t>(byte)
-               ? found->text
-               : FileRange{};
+    return byte >= 0 && found != places_.end() && found->byte == static_cast<std::size_t>(byte) ? found->text
+                                                                                                : FileRange{};
 }
 
 std::ptrdiff_t VtuSkeleton::in_file(std::ptrdiff_t byte) const {
-    const auto after =
-        std::upper_bound(places_.begin(), places_.end(), static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, byte)),
-                         [](std::size_t wanted, const Place& place) { return wanted < place.byte; });
+    const auto after = std::upper_bound(
+        places_.begin(), places_.end(), static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, byte)),
+        [](std::size_t wanted, const Place& place) { return wanted < place.byte; });
     if (after == places_.begin()) {
         return byte;
     }

@@ -130,8 +130,7 @@ io::MeshColumns computed_mesh() {
     mesh.points = computed<double>(point_count, 3, coordinate);
     mesh.cells = computed<std::int64_t>(cell_count, 4, corner);
     mesh.point_data = {{"t", io::Scalar::float64, computed<double>(point_count, 1, coordinate)}};
-    mesh.cell_data = {
-        {"neighbors", io::Scalar::int64, computed<std::int64_t>(cell_count, 4, neighbor)}};
+    mesh.cell_data = {{"neighbors", io::Scalar::int64, computed<std::int64_t>(cell_count, 4, neighbor)}};
     mesh.groups = {{0, cell_count / 3, 1, "a"}, {cell_count / 3, cell_count, 2, "b"}};
     return mesh;
 }
@@ -168,24 +167,24 @@ bool is_computed_mesh(const io::Soup& soup) {
 }
 
 bool has_value(const io::DataArray* array, std::size_t i, std::int64_t value) {
-    return array != nullptr && std::visit(
-                                   [&](const auto& values) {
-                                       if constexpr (std::is_arithmetic_v<std::decay_t<decltype(values[0])>>) {
-                                           return static_cast<std::int64_t>(values[i]) == value;
-                                       }
-                                       return false;
-                                   },
-                                   array->values);
+    return array != nullptr &&
+           std::visit(
+               [&](const auto& values) {
+                   if constexpr (std::is_arithmetic_v<std::decay_t<decltype(values[0])>>) {
+                       return static_cast<std::int64_t>(values[i]) == value;
+                   }
+                   return false;
+               },
+               array->values);
 }
 
 bool has_neighbors(const io::Soup& soup) {
     const io::DataArray* together = soup.find_cell_data("neighbors");
     bool same = true;
     for (std::size_t i = 0; same && i < 4 * cell_count; ++i) {
-        same = together != nullptr
-                   ? has_value(together, i, neighbor(i / 4, i % 4))
-                   : has_value(soup.find_cell_data(fmt::format("neighbors_{}", i % 4)), i / 4,
-                               neighbor(i / 4, i % 4));
+        same = together != nullptr ? has_value(together, i, neighbor(i / 4, i % 4))
+                                   : has_value(soup.find_cell_data(fmt::format("neighbors_{}", i % 4)), i / 4,
+                                               neighbor(i / 4, i % 4));
     }
     return same;
 }
@@ -204,7 +203,6 @@ void check_memory(const Write& write, io::Soup (*read)(const std::filesystem::pa
         write(path, computed_mesh());
         return true;
     });
-    CHECK(std::filesystem::file_size(path) > 2 * 64 * mebibyte);
     std::size_t arrays = 0;
     int ends[2];
     REQUIRE(::pipe(ends) == 0);
@@ -219,6 +217,7 @@ void check_memory(const Write& write, io::Soup (*read)(const std::filesystem::pa
     ::close(ends[1]);
     INFO("MiB to write: " << to_write / mebibyte << ", to read: " << to_read / mebibyte
                           << ", of the arrays: " << arrays / mebibyte);
+    CHECK(arrays > 2 * 64 * mebibyte);
     CHECK(to_read > arrays * 3 / 4); // or we measure something else
     if (memory_counts) {
         CHECK(to_write < 64 * mebibyte);
@@ -245,8 +244,7 @@ TEST_CASE("Raw VTU is written and read in less than 64 MiB beside the mesh", "[i
     check_memory(vtu_writer(io::VtuEncoding::raw), io::read_vtu);
 }
 
-TEST_CASE("Packed VTU and VTU as text are written and read in less than 64 MiB beside the mesh",
-          "[.large]") {
+TEST_CASE("Packed VTU and VTU as text are written and read in less than 64 MiB beside the mesh", "[.large]") {
     const auto encoding = GENERATE(io::VtuEncoding::zlib, io::VtuEncoding::lz4, io::VtuEncoding::ascii);
     INFO("encoding " << static_cast<int>(encoding));
     check_memory(vtu_writer(encoding), io::read_vtu);
@@ -340,7 +338,8 @@ TEST_CASE("A VTU file with arrays behind 4 GiB is read", "[io]") {
     const scratch::Folder folder;
     const std::uint64_t far = 5 * gibibyte;
     const std::string head =
-        "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" header_type=\"UInt64\"><UnstructuredGrid>"
+        "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\"><UnstructuredGrid>"
         "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"><PointData>" +
         array_at("Int32", "n", 1, far) + "</PointData><Points>" + array_at("Float64", "p", 3, far + 1000) +
         "</Points><Cells>" + array_at("Int32", "connectivity", 1, 0) +

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`slabhull convert --pieces`: what independent readers see of the pieces, what comes back, what is refused."""
 import importlib.util
+import json
 import resource
 import subprocess
 import unittest
@@ -11,6 +12,7 @@ from harness import PROGRAM, ROOT, ProgramTest, slabhull
 CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 2\n'
 SPHERE = '[initial]\nexperiment = "expanding-sphere"\nlevel = 1\n'
 ROOM = ROOT / "examples/room.msh"
+HAVE_GMSH = all(importlib.util.find_spec(module) for module in ("gmsh", "numpy"))
 HAVE_VTK = all(importlib.util.find_spec(module) for module in ("vtk", "numpy"))
 
 
@@ -138,6 +140,75 @@ class Pvtu(PiecesTest):
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
         self.assertEqual(done.returncode, 5, done.stderr)
         self.assertEqual({p.name: p.read_bytes() for p in self.dir.glob("*whole*")}, before)
+
+
+class Msh(PiecesTest):
+    def seen_by_gmsh(self, *files):
+        """Nodes and elements by tag, views and partitions; whatever Gmsh complains about fails."""
+        import gmsh
+        import numpy as np
+        gmsh.initialize()
+        try:
+            gmsh.option.setNumber("General.Terminal", 0)
+            gmsh.logger.start()
+            gmsh.open(str(files[0]))
+            for file in files[1:]:
+                gmsh.merge(str(file))
+            complaints = [line for line in gmsh.logger.get() if line.startswith(("Error", "Warning"))]
+            self.assertEqual(complaints, [])
+            top = gmsh.model.getDimension()
+            tags, x, _ = gmsh.model.mesh.getNodes()
+            nodes = dict(zip(tags.tolist(), map(tuple, x.reshape(-1, 3).tolist())))
+            elements = {}
+            for dimension in range(1, top + 1):
+                for tag, corners in zip(*self.rows_of(gmsh, dimension)):
+                    elements[int(tag)] = tuple(map(int, corners))
+            groups = {}
+            for dimension, number in gmsh.model.getPhysicalGroups():
+                name = gmsh.model.getPhysicalName(dimension, number)
+                members = [gmsh.model.mesh.getElements(dimension, entity)[1]
+                           for entity in gmsh.model.getEntitiesForPhysicalGroup(dimension, number)]
+                groups[name] = sorted(int(t) for lists in members for tags in lists for t in tags)
+            views = {}
+            for tag in gmsh.view.getTags():
+                name = gmsh.option.getString(f"View[{gmsh.view.getIndex(tag)}].Name")
+                _, where, values, _, _ = gmsh.view.getModelData(tag, 0)
+                views.setdefault(name, {}).update(zip(map(int, where), map(float, np.concatenate(values))))
+            partitions = {int(p) for entity in gmsh.model.getEntities(top)
+                          for p in gmsh.model.getPartitions(*entity)}
+            return nodes, elements, groups, views, partitions
+        finally:
+            gmsh.finalize()
+
+    @staticmethod
+    def rows_of(gmsh, dimension):
+        tags, corners = gmsh.model.mesh.getElementsByType({1: 1, 2: 2, 3: 4}[dimension])
+        return tags, corners.reshape(-1, dimension + 1)
+
+    @unittest.skipUnless(HAVE_GMSH, "no Gmsh here")
+    def test_gmsh_puts_the_pieces_together_to_the_same_mesh(self):
+        hull = self.hull(SPHERE)
+        for source, pieces in ((ROOM, 3), (hull, 4)):
+            whole = self.convert(source, "whole.msh")
+            self.convert(source, "split.msh", "--pieces", pieces)
+            files = [self.dir / f"split_{k + 1}.msh" for k in range(pieces)]
+            self.assertEqual(sorted(self.dir.glob("split*")), files)
+            *expected, _ = self.seen_by_gmsh(whole)
+            *seen, partitions = self.seen_by_gmsh(*files)
+            for ours, theirs in zip(seen, expected):
+                self.assertEqual(ours, theirs)
+            self.assertEqual(partitions, set(range(1, pieces + 1)))
+            for file in files:
+                file.unlink()
+
+    def test_each_piece_is_read_again_with_the_numbers_of_the_whole_mesh(self):
+        self.convert(ROOM, "split.msh", "--pieces", 3)
+        cells = 0
+        for k in (1, 2, 3):
+            found = json.loads(slabhull("info", self.dir / f"split_{k}.msh", "--json").out)
+            cells += found["counts"]["tetrahedra"]
+        whole = json.loads(slabhull("info", ROOM, "--json").out)
+        self.assertEqual(cells, whole["counts"]["tetrahedra"])
 
 
 if __name__ == "__main__":

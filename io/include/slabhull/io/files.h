@@ -108,6 +108,12 @@ void write_pvtu(const std::filesystem::path& path, const MeshColumns& mesh, std:
 /// `$ElementData` (components > 1 become name_0, name_1 ..). Throws LimitError when data have more rows than
 /// the format's 32 bits count, std::invalid_argument when the groups do not hold all cells in order.
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
+/// The mesh in pieces for readers that work in parallel, as Gmsh splits a partitioned mesh: for NAME.msh the
+/// files NAME_1.msh .., each the part of one partition, binary 4.1. Pieces are those of write_pvtu(); lower
+/// simplices are in the first that has their points. Numbers of nodes and elements are those in the whole
+/// mesh; Gmsh puts files together that are opened one after the other. All files are complete before the
+/// first appears. Throws as write_msh() and write_pvtu() do.
+void write_msh_pieces(const std::filesystem::path& path, const MeshColumns& mesh, std::size_t pieces);
 /// The same into a file that is the caller's to commit.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh, VtuEncoding encoding = VtuEncoding::raw);
 void write_msh(AtomicFile& file, const MeshColumns& mesh);
