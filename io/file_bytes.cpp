@@ -24,24 +24,26 @@ std::size_t whole_pages(std::size_t bytes) {
 }
 } // namespace
 
-FileBytes::FileBytes(const std::filesystem::path& path)
-    : path_{path}, descriptor_{::open(path.c_str(), O_RDONLY | O_CLOEXEC)} {
+FileBytes::FileBytes(const std::filesystem::path& path) : path_{path} {
     struct stat status {};
-    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
-        fail(std::strerror(errno));
-    }
     // Files that tell no size may have content; small ones are not worth huge pages of their own.
-    if (!S_ISREG(status.st_mode) || status.st_size < static_cast<off_t>(chunk)) {
+    if (::stat(path.c_str(), &status) == 0 &&
+        (!S_ISREG(status.st_mode) || status.st_size < static_cast<off_t>(chunk))) {
         all_ = read_bytes(path);
         data_ = all_.data();
         size_ = loaded_end_ = all_.size();
         return;
+    }
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
+        fail(std::strerror(errno));
     }
     size_ = static_cast<std::size_t>(status.st_size);
     // A huge page more, as the first one begins at a multiple of its size.
     void* place = ::mmap(nullptr, whole_pages(size_) + page, PROT_READ | PROT_WRITE,
                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (place == MAP_FAILED) {
+        ::close(descriptor_);
         throw std::bad_alloc{};
     }
     base_ = static_cast<char*>(place);

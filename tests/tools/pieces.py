@@ -178,6 +178,7 @@ class Msh(PiecesTest):
                           for p in gmsh.model.getPartitions(*entity)}
             return nodes, elements, groups, views, partitions
         finally:
+            gmsh.logger.stop()
             gmsh.finalize()
 
     @staticmethod
@@ -187,7 +188,7 @@ class Msh(PiecesTest):
 
     @unittest.skipUnless(HAVE_GMSH, "no Gmsh here")
     def test_gmsh_puts_the_pieces_together_to_the_same_mesh(self):
-        hull = self.hull(SPHERE)
+        hull = self.hull(CIRCLE)
         for source, pieces in ((ROOM, 3), (hull, 4)):
             whole = self.convert(source, "whole.msh")
             self.convert(source, "split.msh", "--pieces", pieces)
