@@ -121,6 +121,7 @@ void AtomicFile::finish() {
     }
     blocks_->finish();
     check_blocks();
+    blocks_.reset();
     if (::fdatasync(descriptor_) != 0 || ::close(std::exchange(descriptor_, -1)) != 0) {
         fail("cannot be written");
     }

@@ -41,7 +41,16 @@ void write_vtu_as(AtomicFiles& files, const std::filesystem::path& path, const M
 
 void write_msh_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                   const WriteOptions& options) {
-    write_msh(files.open(path), mesh, msh_options(options));
+    if (options.pieces > 0) {
+        write_msh_pieces(files, path, mesh, options.pieces, msh_options(options));
+    } else {
+        write_msh(files.open(path), mesh, msh_options(options));
+    }
+}
+
+void write_pvtu_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
+                   const WriteOptions& options) {
+    write_pvtu(files, path, mesh, std::max<std::size_t>(1, options.pieces), vtu_encoding(options));
 }
 
 void write_tetgen_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
@@ -117,8 +126,9 @@ constexpr Holds stl_holds{
     .least_dimension = 2, .most_dimension = 2, .doubles = false, .shared_points = false};
 
 const std::vector<std::string_view> no_mark;
-const Offers msh_offers{.encodings = {"binary", "ascii"}, .versions = {"4.1", "2.2"}};
+const Offers msh_offers{.encodings = {"binary", "ascii"}, .versions = {"4.1", "2.2"}, .pieces = true};
 const Offers vtu_offers{.encodings = {"raw", "zlib", "lz4", "ascii"}};
+const Offers pvtu_offers{.encodings = vtu_offers.encodings, .pieces = true};
 const Offers medit_offers{.four_dimensional = true};
 
 /// A line for each format; one without a writer says nothing of what it holds.
@@ -127,6 +137,7 @@ const std::vector<Format>& table() {
     static const std::vector<Format> all{
         {"msh", "MSH", {".msh"}, {"$MeshFormat", "$Comments"}, read_msh, write_msh_as, msh_holds, msh_offers},
         {"vtu", "VTU", {".vtu"}, {"<VTKFile"}, read_vtu, write_vtu_as, vtu_holds, vtu_offers},
+        {"pvtu", "partitioned VTU", {".pvtu"}, no_mark, read_pvtu, write_pvtu_as, vtu_holds, pvtu_offers},
         {"vtk", "legacy VTK", {".vtk"}, {"# vtk DataFile"}, read_vtk, alone<write_vtk>, vtu_holds},
         {"xdmf", "XDMF", {".xdmf", ".xmf"}, no_mark, read_xdmf, write_xdmf_as, vtu_holds},
         {"tetgen",
@@ -326,6 +337,10 @@ void require_offered(const Format& format, const WriteOptions& options, const st
     };
     require_one("encoding", options.encoding, format.offers.encodings);
     require_one("version", options.version, format.offers.versions);
+    if (options.pieces > 0 && !format.offers.pieces) {
+        throw UsageError{fmt::format("{}pieces: {} is not written in pieces; .pvtu and MSH are", prefix,
+                                     format.title)};
+    }
     if (options.four_dimensional && !format.offers.four_dimensional) {
         throw UsageError{fmt::format("{}four-dimensional: {} has no such dialect; Medit (.mesh) has one",
                                      prefix, format.title)};

@@ -2,11 +2,10 @@
 // The formats are described in the Gmsh reference manual, sections "MSH file format" and "Legacy formats".
 #include "slabhull/io/files.h"
 
-#include "cell_groups.h"
 #include "column_stream.h"
 #include "gmsh_types.h"
+#include "msh_parts.h"
 #include "slabhull/core/error.h"
-#include "slabhull/core/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -19,60 +18,6 @@
 namespace slabhull::io {
 
 namespace {
-
-struct Box {
-    Point<3> min;
-    Point<3> max;
-};
-
-Box box_of(const Column<double>& points) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr std::size_t grain = 65536;
-    const std::size_t pieces = (points.rows() + grain - 1) / grain;
-    std::vector<Box> boxes(pieces, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}});
-    parallel_for(points.rows(), grain, [&](std::size_t begin, std::size_t end) {
-        Box& box = boxes[begin / grain];
-        for_each_row(points, begin, end, [&](std::size_t, const double* x) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                box.min[i] = std::min(box.min[i], x[i]);
-                box.max[i] = std::max(box.max[i], x[i]);
-            }
-        });
-    });
-    Box whole = boxes.empty() ? Box{} : boxes.front();
-    for (const Box& box : boxes) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            whole.min[i] = std::min(whole.min[i], box.min[i]);
-            whole.max[i] = std::max(whole.max[i], box.max[i]);
-        }
-    }
-    return whole;
-}
-
-/// The cells of one dimension.
-struct Part {
-    using Group = MeshColumns::Group;
-
-    int dimension;
-    const Column<std::int64_t>& cells;
-    std::vector<Group> groups;
-    std::vector<PatchNumber> entities; ///< the number of each one's physical group; groups may share one
-    std::size_t tags_before = 0;       ///< element tags used before this part's
-
-    Part(int its_dimension, const Column<std::int64_t>& its_cells, const std::vector<Group>& given)
-        : dimension{its_dimension}, cells{its_cells}, groups{checked_groups(its_cells, given, "write_msh")} {
-        for (const Group& group : groups) {
-            if (std::find(entities.begin(), entities.end(), group.number) == entities.end()) {
-                entities.push_back(group.number);
-            }
-        }
-    }
-
-    std::size_t entity_of(const Group& group) const {
-        const auto place = std::find(entities.begin(), entities.end(), group.number);
-        return 1 + static_cast<std::size_t>(place - entities.begin());
-    }
-};
 
 /// The name of a group as MSH has it, in double quotes, for which there is no escape.
 const std::string& quotable(const std::string& name) {
@@ -122,25 +67,16 @@ struct TextRow {
 template<class Row, class Tag>
 class MshWriter {
 public:
-    MshWriter(AtomicFile& file, const MeshColumns& mesh) : mesh_{mesh}, file_{file} {
-        parts_.emplace_back(mesh.dimension, mesh.cells, mesh.groups);
-        for (const MeshColumns::Part& part : mesh.lower) {
-            parts_.emplace_back(part.dimension, part.cells, part.groups);
-        }
-        for (Part& part : parts_) {
-            part.tags_before = elements_;
-            elements_ += part.cells.rows();
-        }
+    MshWriter(AtomicFile& file, const MeshColumns& mesh)
+        : mesh_{mesh}, parts_{msh_parts(mesh)},
+          elements_{parts_.back().tags_before + parts_.back().cells.rows()}, file_{file} {
         require_range(mesh.points.rows(), "nodes");
         require_range(elements_, "elements");
+        require_msh_rows(mesh);
     }
 
     void write() {
-        write_format();
-        write_physical_names();
-        if constexpr (is_4) {
-            section("Entities", [this] { write_entities(); });
-        }
+        write_head();
         section("Nodes", [this] { is_4 ? write_node_block() : write_node_list(); });
         section("Elements", [this] { is_4 ? write_element_blocks() : write_element_list(); });
         for (const DataColumn& data : mesh_.point_data) {
@@ -148,6 +84,14 @@ public:
         }
         for (const DataColumn& data : mesh_.cell_data) {
             write_data("ElementData", data);
+        }
+    }
+
+    void write_head() {
+        write_format();
+        write_physical_names();
+        if constexpr (is_4) {
+            section("Entities", [this] { write_entities(); });
         }
     }
 
@@ -201,7 +145,7 @@ private:
     void write_physical_names() {
         std::set<std::pair<int, PatchNumber>> named;
         std::string lines;
-        for (const Part& part : parts_) {
+        for (const MshPart& part : parts_) {
             for (const Group& group : part.groups) {
                 if (group.number > 0 && !group.name.empty() &&
                     named.emplace(part.dimension, group.number).second) {
@@ -220,7 +164,7 @@ private:
     /// The discrete entities, numbered from 1 in each dimension, in the box of the whole mesh.
     void write_entities() {
         std::array<Tag, 4> counts{};
-        for (const Part& part : parts_) {
+        for (const MshPart& part : parts_) {
             counts.at(static_cast<std::size_t>(part.dimension)) = part.entities.size();
         }
         row(counts[0], counts[1], counts[2], counts[3]);
@@ -230,7 +174,7 @@ private:
         }
     }
 
-    void write_entities(const Part& part, const Box& box) {
+    void write_entities(const MshPart& part, const Box& box) {
         constexpr std::size_t most_values = 10;
         rows(part.entities.size(), most_values * Row::template longest<double>,
              [&](std::size_t begin, std::size_t end, Row& row) {
@@ -240,7 +184,7 @@ private:
              });
     }
 
-    static void write_entity(const Part& part, std::size_t i, const Box& box, Row& row) {
+    static void write_entity(const MshPart& part, std::size_t i, const Box& box, Row& row) {
         row.value(as_int(i + 1));
         std::for_each(box.min.begin(), box.min.end(), [&](double x) { row.value(x); });
         if (part.dimension > 0) {
@@ -300,12 +244,12 @@ private:
 
     void write_element_blocks() {
         std::ptrdiff_t blocks = 0;
-        for (const Part& part : parts_) {
+        for (const MshPart& part : parts_) {
             blocks += std::count_if(part.groups.begin(), part.groups.end(), filled);
         }
         const auto count = static_cast<Tag>(elements_);
         row(static_cast<Tag>(blocks), count, Tag{count > 0}, count);
-        for_each_block([this](const Part& part, const Group& group) {
+        for_each_block([this](const MshPart& part, const Group& group) {
             row(std::int32_t{part.dimension}, as_int(part.entity_of(group)),
                 std::int32_t{gmsh_simplex_type(part.dimension)}, static_cast<Tag>(group.end - group.begin));
             write_block(part, group, std::array<Tag, 0>{});
@@ -315,7 +259,7 @@ private:
     /// Each element has its type and two numbers, group and entity; in binary the type heads a block.
     void write_element_list() {
         file_.write(fmt::format("{}\n", elements_));
-        for_each_block([this](const Part& part, const Group& group) {
+        for_each_block([this](const MshPart& part, const Group& group) {
             const std::int32_t type = gmsh_simplex_type(part.dimension);
             const std::int32_t entity = as_int(part.entity_of(group));
             if constexpr (Row::text) {
@@ -329,7 +273,7 @@ private:
 
     template<class Write>
     void for_each_block(const Write& write) {
-        for (const Part& part : parts_) {
+        for (const MshPart& part : parts_) {
             for (const Group& group : part.groups) {
                 if (filled(group)) {
                     write(part, group);
@@ -340,7 +284,7 @@ private:
 
     /// Rows of an element's tag, what is the same for all, and its nodes' tags.
     template<class Same>
-    void write_block(const Part& part, const Group& group, const Same& same) {
+    void write_block(const MshPart& part, const Group& group, const Same& same) {
         const std::size_t corners = static_cast<std::size_t>(part.dimension) + 1;
         const std::size_t tag = part.tags_before + 1;
         rows(group.end - group.begin, (1 + same.size() + corners) * Row::template longest<Tag>,
@@ -360,25 +304,10 @@ private:
     // --- data
 
     void write_data(const char* section, const DataColumn& data) {
-        const std::size_t rows = rows_of(data);
-        if (rows > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-            throw LimitError(
-                fmt::format("\"{}\" has {} rows, but ${} in an MSH file counts in 32 bits; write VTU",
-                            data.name, rows, section));
-        }
-        const int components = components_of(data);
-        if (data.type == Scalar::float64 && is_vector_or_tensor(components)) {
-            write_components(section, data, data.name, 0, components);
-            return;
-        }
-        for (int k = 0; k < components; ++k) {
-            write_components(section, data, components > 1 ? fmt::format("{}_{}", data.name, k) : data.name,
-                             k, k + 1);
-        }
+        for_each_msh_array(data, [&](const std::string& title, int first, int last) {
+            write_components(section, data, title, first, last);
+        });
     }
-
-    /// The only numbers of components that Gmsh knows beside 1.
-    static bool is_vector_or_tensor(int components) { return components == 3 || components == 9; }
 
     /// Those from `first` to before `last`, under one name.
     void write_components(const char* name, const DataColumn& data, const std::string& title, int first,
@@ -404,12 +333,16 @@ private:
     }
 
     const MeshColumns& mesh_;
-    std::vector<Part> parts_; ///< the cells first, so that their tags are their numbers from 1
-    std::size_t elements_ = 0;
+    std::vector<MshPart> parts_; ///< the cells first, so that their tags are their numbers from 1
+    std::size_t elements_;
     AtomicFile& file_;
 };
 
 } // namespace
+
+void write_msh_head(AtomicFile& file, const MeshColumns& mesh) {
+    MshWriter<BinaryRow, std::uint64_t>{file, mesh}.write_head();
+}
 
 void write_msh(AtomicFile& file, const MeshColumns& mesh, const MshOptions& options) {
     const bool is_4 = options.version == MshVersion::v4_1;

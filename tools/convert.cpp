@@ -219,6 +219,9 @@ void add_convert(CLI::App& program, int& exit_code) {
     app->add_option("--version", command->writing.version, "Version of OUT's format: 4.1 or 2.2 (MSH)");
     app->add_flag("--four-dimensional", command->writing.four_dimensional,
                   "OUT in Medit's dialect with vertices x y z t, from the point data t");
+    app->add_option("--pieces", command->writing.pieces,
+                    "So many files, ranges of cells, for parallel readers: .pvtu, .msh")
+        ->check(CLI::PositiveNumber);
     app->add_option("--region", command->region, "Of a hull, only that part: initial, side or terminating")
         ->check(CLI::IsMember(regions));
     app->add_option("--patch", command->patch,

@@ -32,6 +32,11 @@ Soup read_msh(const std::filesystem::path& path);
 /// joined one behind the other; points that they share stay apart. Integers become int64, reals double, text
 /// arrays strings.
 Soup read_vtu(const std::filesystem::path& path);
+/// A .pvtu and the .vtu files that it names, joined. Points of the same number in the point array
+/// "GlobalPointIds", where there is one, are one point, and points and cells come in the order of their
+/// numbers; else in that of the files. Copies of other pieces' cells (a second one of the same
+/// "GlobalCellIds", or marked in "vtkGhostType") are left out, and so are these arrays where they only count.
+Soup read_pvtu(const std::filesystem::path& path);
 /// VTK legacy (.vtk), versions 1 to 5.1, ASCII and binary: an unstructured grid of vertices, lines, triangles
 /// and tetrahedra, mixed or not, or POLYDATA of vertices, lines of two points and triangles. Where they are
 /// mixed, each simplex keeps its number in the file as its tag. Arrays as in read_vtu(); colours are passed
@@ -100,6 +105,13 @@ enum class VtuEncoding { raw, zlib, lz4, ascii };
 /// read_vtu() gives them back.
 void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh,
                VtuEncoding encoding = VtuEncoding::raw);
+/// The mesh in pieces for readers that work in parallel: NAME.pvtu names NAME_0.vtu .. beside it, which hold
+/// ranges of cells of nearly equal length, in order, and the points that these use (the last one also those
+/// that none uses). "GlobalPointIds" and "GlobalCellIds" tell the numbers in the whole mesh; all other data
+/// stay as they are. The .pvtu gets its name last. Throws UsageError
+/// unless each piece gets a cell. Memory: besides that of write_vtu(), three bits per point.
+void write_pvtu(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
+                std::size_t pieces, VtuEncoding encoding = VtuEncoding::raw);
 enum class MshVersion { v4_1, v2_2 };
 struct MshOptions {
     MshVersion version = MshVersion::v4_1;
@@ -111,6 +123,13 @@ struct MshOptions {
 /// LimitError where there is more than the format counts, in 32 bits but for the nodes and elements of
 /// version 4.1, and std::invalid_argument when the groups do not hold all cells in order.
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh, const MshOptions& options = {});
+/// The mesh in pieces for readers that work in parallel, as Gmsh splits a partitioned mesh: for NAME.msh the
+/// files NAME_1.msh .., each the part of one partition, binary 4.1. Pieces are those of write_pvtu(); lower
+/// simplices are in the first that has their points. Numbers of nodes and elements are those in the whole
+/// mesh; Gmsh puts files together that are opened one after the other. Throws as write_msh() and write_pvtu()
+/// do, and UsageError for other options than the default ones.
+void write_msh_pieces(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
+                      std::size_t pieces, const MshOptions& options = {});
 /// The same into a file that is the caller's to commit.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh, VtuEncoding encoding = VtuEncoding::raw);
 void write_msh(AtomicFile& file, const MeshColumns& mesh, const MshOptions& options = {});

@@ -18,6 +18,7 @@ struct WriteOptions {
     std::string encoding; ///< one of Offers::encodings
     std::string version;  ///< one of Offers::versions
     bool four_dimensional = false;
+    std::size_t pieces = 0; ///< files, where Offers::pieces; 0: not cut
 };
 
 /// Where the rows of an array are.
@@ -51,6 +52,7 @@ struct Offers {
     std::vector<std::string_view> encodings{};
     std::vector<std::string_view> versions{};
     bool four_dimensional = false; ///< a dialect for points of space-time
+    bool pieces = false;           ///< several files, for readers that work in parallel
 };
 
 /// A file format: how it is called, read and written.
