@@ -139,6 +139,23 @@ void AtomicFile::fail(const char* doing) const {
     throw OutputError(fmt::format("{}: {}: {}", path_.string(), doing, std::strerror(errno)));
 }
 
+AtomicFile& AtomicFiles::open(const std::filesystem::path& path) {
+    if (std::find(paths_.begin(), paths_.end(), path) != paths_.end()) {
+        throw OutputError(fmt::format("{}: two files would get this name", path.string()));
+    }
+    files_.push_back(std::make_unique<AtomicFile>(path));
+    paths_.push_back(path);
+    return *files_.back();
+}
+
+void AtomicFiles::commit() {
+    const auto each = [this](void (AtomicFile::*step)()) {
+        std::for_each(files_.begin(), files_.end(), [step](const auto& file) { ((*file).*step)(); });
+    };
+    each(&AtomicFile::finish);
+    each(&AtomicFile::commit);
+}
+
 void make_folder(const std::filesystem::path& folder) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);

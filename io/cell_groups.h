@@ -12,9 +12,6 @@ namespace slabhull::io {
 std::vector<MeshColumns::Group> checked_groups(const Column<std::int64_t>& cells,
                                                const std::vector<MeshColumns::Group>& groups,
                                                const char* writer);
-inline std::vector<MeshColumns::Group> groups_of(const MeshColumns& mesh, const char* writer) {
-    return checked_groups(mesh.cells, mesh.groups, writer);
-}
 
 /// Lists the groups that the simplices of a soup are in, without names.
 void list_groups_in_use(Soup& soup);

@@ -21,6 +21,12 @@ using RowFill = std::function<void(std::size_t begin, std::size_t end, char* out
 /// Writes rows to the file, large blocks at a time; within a block they are made by several threads.
 void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill);
 
+/// Writes the rows [begin, end), each of any length up to the longest, to `out` and returns where they end.
+using TextFill = std::function<char*(std::size_t begin, std::size_t end, char* out)>;
+
+/// The same for rows that differ in length, as those of text do.
+void stream_text(AtomicFile& file, std::size_t rows, std::size_t longest_row, const TextFill& fill);
+
 /// Makes rows in blocks of `block_rows`, of which several threads transform several at a time, and hands what
 /// comes of them to `take` in order.
 void stream_blocks(std::size_t rows, std::size_t block_rows, std::size_t row_bytes, const RowFill& fill,

@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <iterator>
+#include <fmt/ranges.h>
+#include <fstream>
 #include <set>
 
 namespace slabhull::io {
@@ -26,89 +27,213 @@ Soup read_ply(const std::filesystem::path& path) {
     return read_surface_as(path, ".ply");
 }
 
-void write_raw_vtu(AtomicFile& file, const MeshColumns& mesh) {
-    write_vtu(file, mesh);
-}
-void write_plain_medit(AtomicFile& file, const MeshColumns& mesh) {
-    write_medit(file, mesh);
+/// A writer of one file in one way.
+template<void (*write)(AtomicFile&, const MeshColumns&)>
+void alone(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
+           const WriteOptions&) {
+    write(files.open(path), mesh);
 }
 
+void write_vtu_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
+                  const WriteOptions& options) {
+    write_vtu(files.open(path), mesh, vtu_encoding(options));
+}
+
+void write_msh_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
+                  const WriteOptions& options) {
+    write_msh(files.open(path), mesh, msh_options(options));
+}
+
+void write_tetgen_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
+                     const WriteOptions&) {
+    write_tetgen(files, path, mesh);
+}
+
+void write_medit_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
+                    const WriteOptions& options) {
+    write_medit(files.open(path), mesh, {.four_dimensional = options.four_dimensional});
+}
+
+// --- what is kept of arrays
+
+bool is_text(const DataArray& array) {
+    return std::holds_alternative<std::vector<std::string>>(array.values);
+}
+
+bool are_reals(const DataArray& array, const char* name, int components = 1) {
+    return array.name == name && array.components == components &&
+           std::holds_alternative<Array<double>>(array.values);
+}
+
+bool are_integers(const DataArray& array, const char* name) {
+    return array.name == name && array.components == 1 &&
+           std::holds_alternative<Array<std::int64_t>>(array.values);
+}
+
+bool medit_keeps(const Soup&, Over over, const DataArray& array, const WriteOptions& options) {
+    return over == Over::points &&
+           (are_integers(array, "medit:ref") || (options.four_dimensional && are_reals(array, "t")));
+}
+
+bool avro_keeps(const Soup& soup, Over over, const DataArray& array, const WriteOptions&) {
+    return over == Over::points && soup.top_dimension() == 3 && are_reals(array, "t");
+}
+
+bool tetgen_keeps(const Soup& soup, Over over, const DataArray& array, const WriteOptions&) {
+    const bool triangles = soup.top_dimension() == 2;
+    switch (over) {
+    case Over::points:
+        return true;
+    case Over::cells:
+        return !triangles || are_integers(array, "marker");
+    default:
+        return triangles && (are_reals(array, "holes", 3) || are_reals(array, "regions", 5));
+    }
+}
+
+// --- the table
+
 constexpr Holds vtu_holds{.point_data = true, .cell_data = true, .field_data = true};
-constexpr Holds msh_holds{.lower_simplices = true,
+constexpr Holds msh_holds{.least_lower = 0,
                           .groups = true,
                           .point_data = true,
                           .cell_data = true,
                           .wide_integers = false,
+                          .components = false,
                           .tags = true};
+constexpr Holds tetgen_holds{
+    .least_dimension = 2, .least_lower = 2, .groups = true, .group_names = false, .keeps = tetgen_keeps};
+constexpr Holds medit_holds{.least_lower = 1, .groups = true, .group_names = false, .keeps = medit_keeps};
+constexpr Holds mfem_holds{
+    .least_lower = 0, .only_facets = true, .groups = true, .group_names = false, .no_group = false};
+constexpr Holds avro_holds{.keeps = avro_keeps};
+constexpr Holds surface_holds{.least_dimension = 2, .most_dimension = 2};
+constexpr Holds stl_holds{
+    .least_dimension = 2, .most_dimension = 2, .doubles = false, .shared_points = false};
 
-constexpr Holds numbered_groups{.groups = true};
-constexpr Holds triangles_only{.least_dimension = 2, .most_dimension = 2};
+const std::vector<std::string_view> no_mark;
+const Offers msh_offers{.encodings = {"binary", "ascii"}, .versions = {"4.1", "2.2"}};
+const Offers vtu_offers{.encodings = {"raw", "zlib", "lz4", "ascii"}};
+const Offers medit_offers{.four_dimensional = true};
 
 /// A line for each format; one without a writer says nothing of what it holds.
 const std::vector<Format>& table() {
+    // clang-format off: a table
     static const std::vector<Format> all{
-        {"msh", "MSH", {".msh"}, read_msh, write_msh, msh_holds},
-        {"vtu", "VTU", {".vtu"}, read_vtu, write_raw_vtu, vtu_holds},
-        {"vtk", "legacy VTK", {".vtk"}, read_vtk, write_vtk, vtu_holds},
-        {"tetgen", "TetGen", {".node", ".ele", ".face", ".poly", ".smesh"}, read_tetgen, nullptr, {}},
-        {"medit", "Medit", {".mesh"}, read_medit, write_plain_medit, numbered_groups},
-        {"mfem", "MFEM", {".mfem"}, read_mfem, write_mfem, numbered_groups},
-        {"avro", "avro", {".avro"}, read_avro, write_avro, {.least_dimension = 1}},
-        {"stl", "STL", {".stl"}, read_stl, write_stl, triangles_only},
-        {"off", "OFF", {".off"}, read_off, write_off, triangles_only},
-        {"obj", "OBJ", {".obj"}, read_obj, write_obj, triangles_only},
-        {"ply", "PLY", {".ply"}, read_ply, write_ply, triangles_only},
+        {"msh", "MSH", {".msh"}, {"$MeshFormat", "$Comments"}, read_msh, write_msh_as, msh_holds, msh_offers},
+        {"vtu", "VTU", {".vtu"}, {"<VTKFile"}, read_vtu, write_vtu_as, vtu_holds, vtu_offers},
+        {"vtk", "legacy VTK", {".vtk"}, {"# vtk DataFile"}, read_vtk, alone<write_vtk>, vtu_holds},
+        {"tetgen",
+         "TetGen",
+         {".node", ".ele", ".face", ".poly", ".smesh"},
+         no_mark,
+         read_tetgen,
+         write_tetgen_as,
+         tetgen_holds},
+        {"medit",
+         "Medit",
+         {".mesh"},
+         {"MeshVersionFormatted"},
+         read_medit,
+         write_medit_as,
+         medit_holds,
+         medit_offers},
+        {"mfem", "MFEM", {".mfem"}, {"MFEM mesh"}, read_mfem, alone<write_mfem>, mfem_holds},
+        {"avro", "avro", {".avro"}, no_mark, read_avro, alone<write_avro>, avro_holds},
+        {"stl", "STL", {".stl"}, no_mark, read_stl, alone<write_stl>, stl_holds},
+        {"off", "OFF", {".off"}, {"OFF"}, read_off, alone<write_off>, surface_holds},
+        {"obj", "OBJ", {".obj"}, no_mark, read_obj, alone<write_obj>, surface_holds},
+        {"ply", "PLY", {".ply"}, {"ply"}, read_ply, alone<write_ply>, surface_holds},
     };
+    // clang-format on
     return all;
 }
 
-std::string names_of(const std::vector<DataArray>& arrays) {
+// --- losses
+
+template<class Is>
+std::string names_of(const std::vector<DataArray>& arrays, const Is& is) {
     std::string names;
     for (const DataArray& array : arrays) {
-        if (array.name != "padding") { // the VTU writer's own
+        if (array.name != "padding" && is(array)) { // the VTU writer's own
             names += (names.empty() ? "" : ", ") + array.name;
         }
     }
     return names;
 }
 
-bool is_text(const DataArray& array) {
-    return std::holds_alternative<std::vector<std::string>>(array.values);
+std::string joined(const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() ? a + b : a + ", " + b;
 }
 
-std::string names_of_texts(const Soup& soup) {
-    std::vector<DataArray> texts;
-    std::copy_if(soup.point_data.begin(), soup.point_data.end(), std::back_inserter(texts), is_text);
-    std::copy_if(soup.cell_data.begin(), soup.cell_data.end(), std::back_inserter(texts), is_text);
-    return names_of(texts);
-}
-
-std::string names_of_wide(const Soup& soup) {
+bool is_wide(const DataArray& array) {
     constexpr std::int64_t widest = std::int64_t{1} << 53;
-    std::string names;
-    for (const auto* arrays : {&soup.point_data, &soup.cell_data}) {
-        for (const DataArray& array : *arrays) {
-            const auto* values = std::get_if<Array<std::int64_t>>(&array.values);
-            if (values != nullptr && std::any_of(values->begin(), values->end(), [](std::int64_t value) {
-                    return value > widest || value < -widest;
-                })) {
-                names += (names.empty() ? "" : ", ") + array.name;
-            }
-        }
-    }
-    return names;
+    const auto* values = std::get_if<Array<std::int64_t>>(&array.values);
+    return values != nullptr && std::any_of(values->begin(), values->end(), [](std::int64_t value) {
+               return value > widest || value < -widest;
+           });
 }
 
-std::string lower_simplices(const Soup& soup) {
+/// "neighbors" is put together again when read.
+bool is_taken_apart(const DataArray& array) {
+    const bool reals = std::holds_alternative<Array<double>>(array.values);
+    return array.components > 1 && !(reals && (array.components == 3 || array.components == 9)) &&
+           array.name != "neighbors" && array.name != "neighbor";
+}
+
+bool holds_lower(const Holds& holds, int top, int dimension) {
+    return dimension >= holds.least_lower && (!holds.only_facets || dimension == top - 1);
+}
+
+std::string lower_simplices(const Holds& holds, const Soup& soup) {
     constexpr std::array<const char*, 4> kinds{"points", "lines", "triangles", "tetrahedra"};
     std::string text;
     for (int dimension = soup.top_dimension() - 1; dimension >= 0; --dimension) {
         const auto d = static_cast<std::size_t>(dimension);
-        if (const std::size_t count = soup.simplices[d].size(dimension); count > 0) {
+        const std::size_t count = soup.simplices[d].size(dimension);
+        if (count > 0 && !holds_lower(holds, soup.top_dimension(), dimension)) {
             text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, kinds[d]);
         }
     }
     return text;
+}
+
+std::string group_names(const Soup& soup) {
+    std::set<std::string> names;
+    for (const PatchList& groups : soup.groups) {
+        for (const Patch& group : groups) {
+            names.insert(group.name);
+        }
+    }
+    names.erase("");
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Whether some cells of the top dimension are in groups, and some are not.
+bool has_cells_apart(const Soup& soup) {
+    const auto& physical = soup.simplices[static_cast<std::size_t>(soup.top_dimension())].physical;
+    const auto apart = std::count(physical.begin(), physical.end(), 0);
+    return apart > 0 && static_cast<std::size_t>(apart) < physical.size();
+}
+
+std::string single_precision(const Soup& soup) {
+    const bool fits = std::all_of(soup.points.begin(), soup.points.end(), [](const Point<3>& point) {
+        return std::all_of(point.begin(), point.end(),
+                           [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
+    });
+    return fits ? "" : "coordinates beyond single precision";
+}
+
+/// Whether the cells use all points and name them first in their order.
+bool points_by_cells(const Soup& soup) {
+    Index next = 0;
+    for (const Index vertex : soup.simplices[static_cast<std::size_t>(soup.top_dimension())].vertices) {
+        if (vertex > next) {
+            return false;
+        }
+        next += vertex == next ? 1 : 0;
+    }
+    return next == soup.points.size();
 }
 
 /// Whether the numbers are neither absent nor first, first + 1, ... with `first` 0 or 1.
@@ -162,21 +287,116 @@ const Format* format_of_extension(const std::filesystem::path& path) {
     return found == table().end() ? nullptr : &*found;
 }
 
-std::vector<std::string> losses(const Format& format, const Soup& soup) {
+const Format* format_of_content(const std::filesystem::path& path) {
+    constexpr std::size_t shown = 4096;
+    std::string start(shown, '\0');
+    std::ifstream file{path, std::ios::binary};
+    file.read(start.data(), static_cast<std::streamsize>(shown));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    if (start.empty()) {
+        read_bytes(path); // a file that cannot be read at all is reported as that
+    }
+    const std::size_t first = std::min(start.find_first_not_of(" \t\r\n"), start.size());
+    const auto shows = [&](std::string_view mark) {
+        return mark.front() == '<' ? start.find(mark) != std::string::npos
+                                   : start.compare(first, mark.size(), mark) == 0;
+    };
+    const auto found = std::find_if(table().begin(), table().end(), [&](const Format& format) {
+        return format.read != nullptr && std::any_of(format.marks.begin(), format.marks.end(), shows);
+    });
+    return found == table().end() ? nullptr : &*found;
+}
+
+void require_offered(const Format& format, const WriteOptions& options, const std::string& prefix) {
+    const auto require_one = [&](const char* name, const std::string& wanted,
+                                 const std::vector<std::string_view>& offered) {
+        if (wanted.empty() || std::find(offered.begin(), offered.end(), wanted) != offered.end()) {
+            return;
+        }
+        throw UsageError{offered.empty()
+                             ? fmt::format("{}{}: {} is written in one way only", prefix, name, format.title)
+                             : fmt::format("{}{}: {} is written as {}, not as \"{}\"", prefix, name,
+                                           format.title, fmt::join(offered, ", "), wanted)};
+    };
+    require_one("encoding", options.encoding, format.offers.encodings);
+    require_one("version", options.version, format.offers.versions);
+    if (options.four_dimensional && !format.offers.four_dimensional) {
+        throw UsageError{fmt::format("{}four-dimensional: {} has no such dialect; Medit (.mesh) has one",
+                                     prefix, format.title)};
+    }
+}
+
+Soup read_mesh(const std::filesystem::path& path) {
+    const Format* format = format_of_extension(path);
+    if (format == nullptr || format->read == nullptr) {
+        format = format_of_content(path);
+    }
+    if (format == nullptr) {
+        throw InputError(fmt::format(
+            "{}: neither the name nor the content is that of a mesh file that is read", path.string()));
+    }
+    return format->read(path);
+}
+
+bool keeps(const Format& format, const Soup& soup, Over over, const DataArray& array,
+           const WriteOptions& options) {
+    const Holds& holds = format.holds;
+    if (over != Over::field && is_text(array)) {
+        return false;
+    }
+    if (holds.keeps != nullptr) {
+        return holds.keeps(soup, over, array, options);
+    }
+    return over == Over::points ? holds.point_data : over == Over::cells ? holds.cell_data : holds.field_data;
+}
+
+VtuEncoding vtu_encoding(const WriteOptions& options) {
+    const auto is = [&](std::string_view encoding) { return options.encoding == encoding; };
+    return is("zlib")    ? VtuEncoding::zlib
+           : is("lz4")   ? VtuEncoding::lz4
+           : is("ascii") ? VtuEncoding::ascii
+                         : VtuEncoding::raw;
+}
+
+MshOptions msh_options(const WriteOptions& options) {
+    return {.version = options.version == "2.2" ? MshVersion::v2_2 : MshVersion::v4_1,
+            .ascii = options.encoding == "ascii"};
+}
+
+std::vector<std::string> losses(const Format& format, const Soup& soup, const WriteOptions& options) {
     const Holds& holds = format.holds;
     std::vector<std::string> lost;
-    const auto lose = [&lost](bool held, const char* what, const std::string& names) {
-        if (!held && !names.empty()) {
+    const auto lose = [&lost](const std::string& what, const std::string& names) {
+        if (!names.empty()) {
             lost.push_back(what + names);
         }
     };
-    lose(holds.lower_simplices, "", lower_simplices(soup));
-    lose(holds.groups, "", has_groups(soup) ? "groups of cells" : "");
-    lose(holds.point_data, "point data ", names_of(soup.point_data));
-    lose(holds.cell_data, "cell data ", names_of(soup.cell_data));
-    lose(holds.field_data, "field data ", names_of(soup.field_data));
-    lose(!holds.point_data && !holds.cell_data, "texts ", names_of_texts(soup));
-    lose(holds.wide_integers, "digits above 2^53 in ", names_of_wide(soup));
+    const auto not_kept = [&](Over over) {
+        return [&, over](const DataArray& array) { return !keeps(format, soup, over, array, options); };
+    };
+    const auto of_points_and_cells = [&](const auto& is) {
+        const auto kept = [&](Over over) {
+            return [&, over](const DataArray& array) {
+                return is(array) && keeps(format, soup, over, array, options);
+            };
+        };
+        return joined(names_of(soup.point_data, kept(Over::points)),
+                      names_of(soup.cell_data, kept(Over::cells)));
+    };
+    lose("", lower_simplices(holds, soup));
+    if (!holds.groups) {
+        lose("", has_groups(soup) ? "groups of cells" : "");
+    } else if (!holds.group_names) {
+        lose("names of groups: ", group_names(soup));
+    }
+    lose("", holds.groups && !holds.no_group && has_cells_apart(soup) ? "that cells are in no group" : "");
+    lose("point data ", names_of(soup.point_data, not_kept(Over::points)));
+    lose("cell data ", names_of(soup.cell_data, not_kept(Over::cells)));
+    lose("field data ", names_of(soup.field_data, not_kept(Over::field)));
+    lose("digits above 2^53 in ", holds.wide_integers ? "" : of_points_and_cells(is_wide));
+    lose("components in one array, as of ", holds.components ? "" : of_points_and_cells(is_taken_apart));
+    lose("", holds.doubles ? "" : single_precision(soup));
+    lose("", holds.shared_points || points_by_cells(soup) ? "" : "the order of points");
     return lost;
 }
 

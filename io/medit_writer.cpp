@@ -17,7 +17,7 @@ namespace {
 class MeditWriter {
 public:
     MeditWriter(AtomicFile& file, const MeshColumns& mesh, const MeditOptions& options)
-        : mesh_{mesh}, groups_{groups_of(mesh, "write_medit")}, out_{file}, references_{mesh, "medit:ref"} {
+        : mesh_{mesh}, out_{file}, references_{mesh, "medit:ref"} {
         if (options.four_dimensional) {
             time_ = {mesh, "t"};
             if (!time_.given()) {
@@ -33,7 +33,12 @@ public:
         out_.put(large ? "MeshVersionFormatted 4\n" : "MeshVersionFormatted 2\n");
         out_.put(time_.given() ? "Dimension 4\n" : "Dimension 3\n");
         write_vertices();
-        write_cells();
+        write_cells(mesh_.dimension, mesh_.cells, mesh_.groups);
+        for (const MeshColumns::Part& part : mesh_.lower) {
+            if (part.dimension > 0) { // Medit's corners are no cells
+                write_cells(part.dimension, part.cells, part.groups);
+            }
+        }
         out_.put("End\n");
         out_.flush();
     }
@@ -51,13 +56,14 @@ private:
         });
     }
 
-    void write_cells() {
+    void write_cells(int dimension, const Column<std::int64_t>& cells,
+                     const std::vector<MeshColumns::Group>& groups) {
         constexpr std::array<std::string_view, 3> names{"Edges\n", "Triangles\n", "Tetrahedra\n"};
-        const auto corners = static_cast<std::size_t>(mesh_.dimension + 1);
+        const auto corners = static_cast<std::size_t>(dimension + 1);
         out_.put(names.at(corners - 2));
-        out_.number(mesh_.cells.rows(), '\n');
-        for (const MeshColumns::Group& group : groups_) {
-            for_each_row(mesh_.cells, group.begin, group.end, [&](std::size_t, const std::int64_t* vertices) {
+        out_.number(cells.rows(), '\n');
+        for (const MeshColumns::Group& group : checked_groups(cells, groups, "write_medit")) {
+            for_each_row(cells, group.begin, group.end, [&](std::size_t, const std::int64_t* vertices) {
                 for (std::size_t k = 0; k < corners; ++k) {
                     out_.number(vertices[k] + 1, ' ');
                 }
@@ -67,7 +73,6 @@ private:
     }
 
     const MeshColumns& mesh_;
-    std::vector<MeshColumns::Group> groups_;
     TextStream out_;
     PointScalars<double> time_; ///< given in four dimensions only
     PointScalars<std::int64_t> references_;

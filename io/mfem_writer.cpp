@@ -62,7 +62,7 @@ std::vector<Facet<D>> boundary_of(const MeshColumns& mesh) {
 }
 
 template<int D>
-void write_boundary(TextStream& out, const MeshColumns& mesh) {
+void write_found_boundary(TextStream& out, const MeshColumns& mesh) {
     const std::vector<Facet<D>> boundary = boundary_of<D>(mesh);
     out.put(fmt::format("\nboundary\n{}\n", boundary.size()));
     for (const Facet<D>& facet : boundary) {
@@ -71,33 +71,43 @@ void write_boundary(TextStream& out, const MeshColumns& mesh) {
     }
 }
 
-void write_boundary(TextStream& out, const MeshColumns& mesh) {
+void write_found_boundary(TextStream& out, const MeshColumns& mesh) {
     switch (mesh.dimension) {
     case 1:
-        return write_boundary<1>(out, mesh);
+        return write_found_boundary<1>(out, mesh);
     case 2:
-        return write_boundary<2>(out, mesh);
+        return write_found_boundary<2>(out, mesh);
     default:
-        return write_boundary<3>(out, mesh);
+        return write_found_boundary<3>(out, mesh);
     }
 }
 
 /// Attributes are positive: cells without a group get the number after the largest.
-void write_elements(TextStream& out, const MeshColumns& mesh) {
-    const std::vector<MeshColumns::Group> groups = groups_of(mesh, "write_mfem");
+void write_elements(TextStream& out, const char* section, int dimension, const Column<std::int64_t>& cells,
+                    const std::vector<MeshColumns::Group>& given) {
+    const std::vector<MeshColumns::Group> groups = checked_groups(cells, given, "write_mfem");
     PatchNumber largest = 0;
     for (const MeshColumns::Group& group : groups) {
         largest = std::max(largest, group.number);
     }
-    out.put(fmt::format("\nelements\n{}\n", mesh.cells.rows()));
+    out.put(fmt::format("\n{}\n{}\n", section, cells.rows()));
     for (const MeshColumns::Group& group : groups) {
         const std::string head = fmt::format("{} {} ", group.number > 0 ? group.number : largest + 1,
-                                             mfem_simplex_type(mesh.dimension));
-        for_each_row(mesh.cells, group.begin, group.end, [&](std::size_t, const std::int64_t* vertices) {
+                                             mfem_simplex_type(dimension));
+        for_each_row(cells, group.begin, group.end, [&](std::size_t, const std::int64_t* vertices) {
             out.put(head);
-            out.numbers(vertices, static_cast<std::size_t>(mesh.dimension + 1), '\n');
+            out.numbers(vertices, static_cast<std::size_t>(dimension + 1), '\n');
         });
     }
+}
+
+/// That which the mesh tells, in simplices of one dimension less, or else all facets of one cell only.
+void write_boundary(TextStream& out, const MeshColumns& mesh) {
+    const auto told = std::find_if(mesh.lower.begin(), mesh.lower.end(), [&](const MeshColumns::Part& part) {
+        return part.dimension == mesh.dimension - 1;
+    });
+    told == mesh.lower.end() ? write_found_boundary(out, mesh)
+                             : write_elements(out, "boundary", told->dimension, told->cells, told->groups);
 }
 
 bool lies_in_plane(const MeshColumns& mesh) {
@@ -124,7 +134,7 @@ void write_mfem(AtomicFile& file, const MeshColumns& mesh) {
     }
     TextStream out{file};
     out.put(fmt::format("MFEM mesh v1.0\n\ndimension\n{}\n", mesh.dimension));
-    write_elements(out, mesh);
+    write_elements(out, "elements", mesh.dimension, mesh.cells, mesh.groups);
     write_boundary(out, mesh);
     write_vertices(out, mesh);
     out.flush();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The MSH 4.1 format is described in the Gmsh reference manual, section "MSH file format".
+// The formats are described in the Gmsh reference manual, sections "MSH file format" and "Legacy formats".
 #include "slabhull/io/files.h"
 
 #include "cell_groups.h"
@@ -9,6 +9,8 @@
 #include "slabhull/core/parallel.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <fmt/format.h>
 #include <limits>
 #include <set>
@@ -82,6 +84,42 @@ const std::string& quotable(const std::string& name) {
     return name;
 }
 
+/// The values of a row in binary, as they are in memory.
+struct BinaryRow {
+    static constexpr bool text = false;
+    static constexpr std::string_view section_end = "\n"; ///< behind the values of a section
+    template<class T>
+    static constexpr std::size_t longest = sizeof(T);
+
+    char* out;
+
+    template<class T>
+    void value(T value) {
+        put(out, value);
+    }
+    void end() {}
+};
+
+/// A row as a line of text; doubles have the fewest digits that give them back.
+struct TextRow {
+    static constexpr bool text = true;
+    static constexpr std::string_view section_end = "";
+    template<class T>
+    static constexpr std::size_t longest = 25; ///< a double takes 24, an integer less; and a blank
+
+    char* out;
+
+    template<class T>
+    void value(T value) {
+        out = std::to_chars(out, out + longest<T>, value).ptr;
+        *out++ = ' ';
+    }
+    void end() { out[-1] = '\n'; }
+};
+
+/// One writer for both versions and both ways to store values. Tag is the type of the numbers of nodes and
+/// elements: 64 bits in version 4.1, 32 in version 2.2.
+template<class Row, class Tag>
 class MshWriter {
 public:
     MshWriter(AtomicFile& file, const MeshColumns& mesh) : mesh_{mesh}, file_{file} {
@@ -93,14 +131,18 @@ public:
             part.tags_before = elements_;
             elements_ += part.cells.rows();
         }
+        require_range(mesh.points.rows(), "nodes");
+        require_range(elements_, "elements");
     }
 
     void write() {
         write_format();
         write_physical_names();
-        write_entities();
-        write_nodes();
-        write_elements();
+        if constexpr (is_4) {
+            section("Entities", [this] { write_entities(); });
+        }
+        section("Nodes", [this] { is_4 ? write_node_block() : write_node_list(); });
+        section("Elements", [this] { is_4 ? write_element_blocks() : write_element_list(); });
         for (const DataColumn& data : mesh_.point_data) {
             write_data("NodeData", data);
         }
@@ -111,18 +153,49 @@ public:
 
 private:
     using Group = MeshColumns::Group;
+    static constexpr bool is_4 = sizeof(Tag) == 8;
 
-    template<class T>
-    void put_value(T value) {
-        file_.write(&value, sizeof value);
+    static void require_range(std::size_t count, const char* what) {
+        if (count > static_cast<std::size_t>(std::numeric_limits<Tag>::max())) {
+            throw LimitError(fmt::format("{} {}, but MSH 2.2 counts in 32 bits; write MSH 4.1", count, what));
+        }
     }
-    void put_int(std::size_t value) { put_value(static_cast<std::int32_t>(value)); }
-    void put_size(std::size_t value) { put_value(static_cast<std::uint64_t>(value)); }
+
+    static std::int32_t as_int(std::size_t value) { return static_cast<std::int32_t>(value); }
+
+    template<class Write>
+    void section(const char* name, const Write& write) {
+        file_.write(fmt::format("${}\n", name));
+        write();
+        file_.write(fmt::format("{}$End{}\n", Row::section_end, name));
+    }
+
+    /// Many rows: fill(begin, end, row) makes some of them and ends each.
+    template<class Fill>
+    void rows(std::size_t count, std::size_t longest, const Fill& fill) {
+        stream_text(file_, count, longest, [&](std::size_t begin, std::size_t end, char* out) {
+            Row row{out};
+            fill(begin, end, row);
+            return row.out;
+        });
+    }
+
+    /// One row of a few values.
+    template<class... T>
+    void row(T... values) {
+        rows(1, (0 + ... + Row::template longest<T>), [&](std::size_t, std::size_t, Row& row) {
+            (row.value(values), ...);
+            row.end();
+        });
+    }
 
     void write_format() {
-        file_.write("$MeshFormat\n4.1 1 8\n");
-        put_int(1); // tells the byte order
-        file_.write("\n$EndMeshFormat\n");
+        file_.write(fmt::format("$MeshFormat\n{} {} 8\n", is_4 ? "4.1" : "2.2", Row::text ? 0 : 1));
+        if constexpr (!Row::text) {
+            row(std::int32_t{1}); // tells the byte order
+            file_.write("\n");
+        }
+        file_.write("$EndMeshFormat\n");
     }
 
     void write_physical_names() {
@@ -142,105 +215,149 @@ private:
         }
     }
 
+    // --- entities, of version 4.1 only
+
     /// The discrete entities, numbered from 1 in each dimension, in the box of the whole mesh.
     void write_entities() {
-        file_.write("$Entities\n");
-        for (int dimension = 0; dimension <= 3; ++dimension) {
-            const Part* part = part_of(dimension);
-            put_size(part != nullptr ? part->entities.size() : 0);
+        std::array<Tag, 4> counts{};
+        for (const Part& part : parts_) {
+            counts.at(static_cast<std::size_t>(part.dimension)) = part.entities.size();
         }
+        row(counts[0], counts[1], counts[2], counts[3]);
         const Box box = box_of(mesh_.points);
-        for (int dimension = 0; dimension <= 3; ++dimension) {
-            if (const Part* part = part_of(dimension)) {
-                write_entities(*part, box);
-            }
+        for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) { // by ascending dimension
+            write_entities(*part, box);
         }
-        file_.write("\n$EndEntities\n");
-    }
-
-    const Part* part_of(int dimension) const {
-        const auto found = std::find_if(parts_.begin(), parts_.end(),
-                                        [=](const Part& part) { return part.dimension == dimension; });
-        return found == parts_.end() ? nullptr : &*found;
     }
 
     void write_entities(const Part& part, const Box& box) {
-        for (std::size_t i = 0; i < part.entities.size(); ++i) {
-            put_int(i + 1);
-            part.dimension == 0 ? put_value(box.min) : put_value(box);
-            put_size(part.entities[i] > 0 ? 1 : 0);
-            if (part.entities[i] > 0) {
-                put_value(part.entities[i]);
-            }
-            if (part.dimension > 0) {
-                put_size(0); // no bounding entities
-            }
+        constexpr std::size_t most_values = 10;
+        rows(part.entities.size(), most_values * Row::template longest<double>,
+             [&](std::size_t begin, std::size_t end, Row& row) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                     write_entity(part, i, box, row);
+                 }
+             });
+    }
+
+    static void write_entity(const Part& part, std::size_t i, const Box& box, Row& row) {
+        row.value(as_int(i + 1));
+        std::for_each(box.min.begin(), box.min.end(), [&](double x) { row.value(x); });
+        if (part.dimension > 0) {
+            std::for_each(box.max.begin(), box.max.end(), [&](double x) { row.value(x); });
         }
+        const bool in_group = part.entities[i] > 0;
+        row.value(Tag{in_group});
+        if (in_group) {
+            row.value(part.entities[i]);
+        }
+        if (part.dimension > 0) {
+            row.value(Tag{0}); // no bounding entities
+        }
+        row.end();
     }
 
-    void put_block_head(int dimension, std::size_t entity, std::size_t third, std::size_t count) {
-        put_int(static_cast<std::size_t>(dimension));
-        put_int(entity);
-        put_int(third);
-        put_size(count);
+    // --- nodes
+
+    void write_node_block() {
+        const auto count = static_cast<Tag>(mesh_.points.rows());
+        row(Tag{1}, count, Tag{count > 0}, count); // blocks, nodes, smallest and largest tag
+        row(std::int32_t{mesh_.dimension}, std::int32_t{1}, std::int32_t{0}, count);
+        write_nodes(true, false);
+        write_nodes(false, true);
     }
 
-    /// Counts of blocks and things, smallest and largest tag.
-    void put_section_head(std::size_t blocks, std::size_t count) {
-        put_size(blocks);
-        put_size(count);
-        put_size(count > 0 ? 1 : 0);
-        put_size(count);
+    void write_node_list() {
+        file_.write(fmt::format("{}\n", mesh_.points.rows()));
+        write_nodes(true, true);
     }
 
-    void write_nodes() {
-        const std::size_t count = mesh_.points.rows();
-        file_.write("$Nodes\n");
-        put_section_head(1, count);
-        put_block_head(mesh_.dimension, 1, 0, count);
-        stream_rows(file_, count, sizeof(std::uint64_t), [](std::size_t begin, std::size_t end, char* out) {
-            for (std::size_t tag = begin + 1; tag <= end; ++tag) {
-                put(out, static_cast<std::uint64_t>(tag));
+    /// Rows of the nodes' tags, places, or both.
+    void write_nodes(bool tags, bool places) {
+        const std::size_t longest =
+            (tags ? Row::template longest<Tag> : 0) + (places ? 3 * Row::template longest<double> : 0);
+        rows(mesh_.points.rows(), longest, [&](std::size_t begin, std::size_t end, Row& row) {
+            const auto put_row = [&](std::size_t node, const double* x) {
+                if (tags) {
+                    row.value(static_cast<Tag>(node + 1));
+                }
+                std::for_each(x, x + (places ? 3 : 0), [&](double value) { row.value(value); });
+                row.end();
+            };
+            if (places) {
+                for_each_row(mesh_.points, begin, end, put_row);
+            } else {
+                for (std::size_t node = begin; node < end; ++node) {
+                    put_row(node, nullptr);
+                }
             }
         });
-        stream_rows(file_, count, 3 * sizeof(double), stored_as<double>(mesh_.points));
-        file_.write("\n$EndNodes\n");
     }
 
-    void write_elements() {
-        const auto filled = [](const Group& group) { return group.end > group.begin; };
+    // --- elements
+
+    static bool filled(const Group& group) { return group.end > group.begin; }
+
+    void write_element_blocks() {
         std::ptrdiff_t blocks = 0;
         for (const Part& part : parts_) {
             blocks += std::count_if(part.groups.begin(), part.groups.end(), filled);
         }
-        file_.write("$Elements\n");
-        put_section_head(static_cast<std::size_t>(blocks), elements_);
+        const auto count = static_cast<Tag>(elements_);
+        row(static_cast<Tag>(blocks), count, Tag{count > 0}, count);
+        for_each_block([this](const Part& part, const Group& group) {
+            row(std::int32_t{part.dimension}, as_int(part.entity_of(group)),
+                std::int32_t{gmsh_simplex_type(part.dimension)}, static_cast<Tag>(group.end - group.begin));
+            write_block(part, group, std::array<Tag, 0>{});
+        });
+    }
+
+    /// Each element has its type and two numbers, group and entity; in binary the type heads a block.
+    void write_element_list() {
+        file_.write(fmt::format("{}\n", elements_));
+        for_each_block([this](const Part& part, const Group& group) {
+            const std::int32_t type = gmsh_simplex_type(part.dimension);
+            const std::int32_t entity = as_int(part.entity_of(group));
+            if constexpr (Row::text) {
+                write_block(part, group, std::array<std::int32_t, 4>{type, 2, group.number, entity});
+            } else {
+                row(type, as_int(group.end - group.begin), std::int32_t{2});
+                write_block(part, group, std::array<std::int32_t, 2>{group.number, entity});
+            }
+        });
+    }
+
+    template<class Write>
+    void for_each_block(const Write& write) {
         for (const Part& part : parts_) {
             for (const Group& group : part.groups) {
                 if (filled(group)) {
-                    write_block(part, group);
+                    write(part, group);
                 }
             }
         }
-        file_.write("\n$EndElements\n");
     }
 
-    void write_block(const Part& part, const Group& group) {
+    /// Rows of an element's tag, what is the same for all, and its nodes' tags.
+    template<class Same>
+    void write_block(const Part& part, const Group& group, const Same& same) {
         const std::size_t corners = static_cast<std::size_t>(part.dimension) + 1;
-        const auto type = static_cast<std::size_t>(gmsh_simplex_type(part.dimension));
         const std::size_t tag = part.tags_before + 1;
-        put_block_head(part.dimension, part.entity_of(group), type, group.end - group.begin);
-        stream_rows(file_, group.end - group.begin, (corners + 1) * sizeof(std::uint64_t),
-                    [&](std::size_t begin, std::size_t end, char* out) {
-                        for_each_row(part.cells, group.begin + begin, group.begin + end,
-                                     [&](std::size_t cell, const std::int64_t* vertices) {
-                                         put(out, static_cast<std::uint64_t>(cell + tag));
-                                         for (std::size_t k = 0; k < corners; ++k) {
-                                             put(out, static_cast<std::uint64_t>(vertices[k] + 1));
-                                         }
-                                     });
-                    });
+        rows(group.end - group.begin, (1 + same.size() + corners) * Row::template longest<Tag>,
+             [&](std::size_t begin, std::size_t end, Row& row) {
+                 for_each_row(
+                     part.cells, group.begin + begin, group.begin + end,
+                     [&](std::size_t cell, const std::int64_t* vertices) {
+                         row.value(static_cast<Tag>(cell + tag));
+                         std::for_each(same.begin(), same.end(), [&](auto value) { row.value(value); });
+                         std::for_each(vertices, vertices + corners,
+                                       [&](std::int64_t vertex) { row.value(static_cast<Tag>(vertex + 1)); });
+                         row.end();
+                     });
+             });
     }
+
+    // --- data
 
     void write_data(const char* section, const DataColumn& data) {
         const std::size_t rows = rows_of(data);
@@ -250,23 +367,40 @@ private:
                             data.name, rows, section));
         }
         const int components = components_of(data);
+        if (data.type == Scalar::float64 && is_vector_or_tensor(components)) {
+            write_components(section, data, data.name, 0, components);
+            return;
+        }
         for (int k = 0; k < components; ++k) {
-            const std::string name = components > 1 ? fmt::format("{}_{}", data.name, k) : data.name;
-            file_.write(fmt::format("${}\n1\n\"{}\"\n1\n0\n3\n0\n1\n{}\n", section, name, rows));
-            std::visit([&](const auto& column) { write_component(column, k); }, data.values);
-            file_.write(fmt::format("\n$End{}\n", section));
+            write_components(section, data, components > 1 ? fmt::format("{}_{}", data.name, k) : data.name,
+                             k, k + 1);
         }
     }
 
+    /// The only numbers of components that Gmsh knows beside 1.
+    static bool is_vector_or_tensor(int components) { return components == 3 || components == 9; }
+
+    /// Those from `first` to before `last`, under one name.
+    void write_components(const char* name, const DataColumn& data, const std::string& title, int first,
+                          int last) {
+        section(name, [&] {
+            file_.write(fmt::format("1\n\"{}\"\n1\n0\n3\n0\n{}\n{}\n", title, last - first, rows_of(data)));
+            std::visit([&](const auto& column) { write_values(column, first, last); }, data.values);
+        });
+    }
+
     template<class T>
-    void write_component(const Column<T>& column, int component) {
-        stream_rows(file_, column.rows(), sizeof(std::int32_t) + sizeof(double),
-                    [&](std::size_t begin, std::size_t end, char* out) {
-                        for_each_row(column, begin, end, [&](std::size_t row, const T* values) {
-                            put(out, static_cast<std::int32_t>(row + 1));
-                            put(out, static_cast<double>(values[component]));
-                        });
-                    });
+    void write_values(const Column<T>& column, int first, int last) {
+        const std::size_t longest = Row::template longest<std::int32_t> +
+                                    static_cast<std::size_t>(last - first) * Row::template longest<double>;
+        rows(column.rows(), longest, [&](std::size_t begin, std::size_t end, Row& row) {
+            for_each_row(column, begin, end, [&](std::size_t place, const T* values) {
+                row.value(as_int(place + 1));
+                std::for_each(values + first, values + last,
+                              [&](T value) { row.value(static_cast<double>(value)); });
+                row.end();
+            });
+        });
     }
 
     const MeshColumns& mesh_;
@@ -277,13 +411,20 @@ private:
 
 } // namespace
 
-void write_msh(AtomicFile& file, const MeshColumns& mesh) {
-    MshWriter{file, mesh}.write();
+void write_msh(AtomicFile& file, const MeshColumns& mesh, const MshOptions& options) {
+    const bool is_4 = options.version == MshVersion::v4_1;
+    if (options.ascii) {
+        is_4 ? MshWriter<TextRow, std::uint64_t>{file, mesh}.write()
+             : MshWriter<TextRow, std::int32_t>{file, mesh}.write();
+    } else {
+        is_4 ? MshWriter<BinaryRow, std::uint64_t>{file, mesh}.write()
+             : MshWriter<BinaryRow, std::int32_t>{file, mesh}.write();
+    }
 }
 
-void write_msh(const std::filesystem::path& path, const MeshColumns& mesh) {
+void write_msh(const std::filesystem::path& path, const MeshColumns& mesh, const MshOptions& options) {
     AtomicFile file{path};
-    write_msh(file, mesh);
+    write_msh(file, mesh, options);
     file.commit();
 }
 

@@ -2,6 +2,7 @@
 // The formats are described in TetGen's manual, section "File Formats".
 #include "slabhull/io/files.h"
 
+#include "cell_groups.h"
 #include "file_cursor.h"
 #include "percent_text.h"
 #include "tetgen_names.h"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
 #include <utility>
 
 namespace slabhull::io {
@@ -169,7 +169,7 @@ public:
             throw InputError(fmt::format(
                 "{}: a TetGen file called .node, .ele, .face, .poly or .smesh was expected", path_.string()));
         }
-        list_groups();
+        list_groups_in_use(soup_);
         return std::move(soup_);
     }
 
@@ -289,6 +289,28 @@ private:
             file.end_row("cell", row + first());
         }
         soup_.cell_data = attributes.take();
+        take_groups(block);
+    }
+
+    /// The groups of cells, where write_tetgen() put them.
+    void take_groups(SimplexBlock& block) {
+        const auto found =
+            std::find_if(soup_.cell_data.begin(), soup_.cell_data.end(), [](const DataArray& array) {
+                return array.name == group_attribute && array.components == 1 &&
+                       std::holds_alternative<Array<std::int64_t>>(array.values);
+            });
+        if (found == soup_.cell_data.end()) {
+            return;
+        }
+        for (const std::int64_t number : std::get<Array<std::int64_t>>(found->values)) {
+            block.physical.push_back(group_of(number));
+        }
+        soup_.cell_data.erase(found);
+    }
+
+    /// Groups hold the positive numbers only.
+    static PatchNumber group_of(std::int64_t number) {
+        return number > 0 && std::in_range<PatchNumber>(number) ? static_cast<PatchNumber>(number) : 0;
     }
 
     void read_simplex(TetgenFile& file, SimplexBlock& block, std::size_t corners, std::size_t row,
@@ -333,23 +355,13 @@ private:
 
     void add_marker(std::int64_t marker) {
         markers_.push_back(marker);
-        const bool is_group = marker > 0 && std::in_range<PatchNumber>(marker);
-        soup_.simplices[2].physical.push_back(is_group ? static_cast<PatchNumber>(marker) : 0);
+        soup_.simplices[2].physical.push_back(group_of(marker));
     }
 
-    /// Groups hold the positive ones only; data can be on the largest simplices only.
+    /// Data can be on the largest simplices only.
     void keep_markers() {
         if (!markers_.empty() && soup_.simplices[3].vertices.empty()) {
             soup_.cell_data.push_back({"marker", 1, std::move(markers_)});
-        }
-    }
-
-    void list_groups() {
-        const auto& physical = soup_.simplices[2].physical;
-        for (const PatchNumber number : std::set<PatchNumber>(physical.begin(), physical.end())) {
-            if (number > 0) {
-                soup_.groups[2].push_back({number, {}});
-            }
         }
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/io/files.h"
 
+#include "file_cursor.h"
 #include "percent_text.h"
 #include "slabhull/core/error.h"
 #include "tetgen_names.h"
@@ -9,7 +10,6 @@
 #include <array>
 #include <charconv>
 #include <fmt/format.h>
-#include <memory>
 #include <optional>
 
 namespace slabhull::io {
@@ -62,7 +62,9 @@ private:
     std::size_t next_ = 0;
 };
 
-void write_rows(AtomicFile& file, std::size_t rows, const std::vector<DataColumn>& columns) {
+/// A line for each row or, where `break_after` says so, two, of which the first has that many columns.
+void write_rows(AtomicFile& file, std::size_t rows, const std::vector<DataColumn>& columns,
+                std::size_t break_after = 0) {
     constexpr std::size_t chunk = 4096;
     std::vector<ColumnText> texts;
     for (const DataColumn& column : columns) {
@@ -76,10 +78,12 @@ void write_rows(AtomicFile& file, std::size_t rows, const std::vector<DataColumn
         }
         block.clear();
         for (std::size_t row = begin; row < end; ++row) {
-            for (ColumnText& text : texts) {
-                text.append_row(block);
+            for (std::size_t k = 0; k < texts.size(); ++k) {
+                texts[k].append_row(block);
+                if (k + 1 == break_after || k + 1 == texts.size()) {
+                    block.back() = '\n';
+                }
             }
-            block.back() = '\n';
         }
         file.write(block);
     }
@@ -118,22 +122,26 @@ std::vector<DataColumn> without(std::vector<DataColumn> columns, const DataColum
 }
 
 /// Number of each cell's group, 0 for none. The groups stand in the order of the cells.
-Column<std::int64_t> group_numbers(const MeshColumns& mesh) {
-    const auto number_of = [groups = mesh.groups](std::size_t cell) {
+DataColumn group_numbers(std::size_t cells, std::vector<MeshColumns::Group> given) {
+    const auto number_of = [groups = std::move(given)](std::size_t cell) {
         const auto group = std::partition_point(groups.begin(), groups.end(),
                                                 [cell](const auto& one) { return one.end <= cell; });
         return group == groups.end() || cell < group->begin ? 0 : group->number;
     };
-    return {mesh.cells.rows(), 1, [number_of](std::size_t begin, std::size_t end, std::int64_t* out) {
-                for (std::size_t cell = begin; cell < end; ++cell) {
-                    *out++ = number_of(cell);
-                }
-            }};
+    const auto fill = [number_of](std::size_t begin, std::size_t end, std::int64_t* out) {
+        for (std::size_t cell = begin; cell < end; ++cell) {
+            *out++ = number_of(cell);
+        }
+    };
+    return integers(group_attribute, Column<std::int64_t>{cells, 1, fill});
 }
 
 class TetgenWriter {
 public:
-    TetgenWriter(const std::filesystem::path& stem, const MeshColumns& mesh) : stem_{stem}, mesh_{mesh} {}
+    /// `complex`: the extension of the file that holds triangles as facets of a domain.
+    TetgenWriter(AtomicFiles& files, const std::filesystem::path& stem, const char* complex,
+                 const MeshColumns& mesh)
+        : files_{files}, stem_{stem}, complex_{complex}, mesh_{mesh} {}
 
     void write() {
         if (mesh_.dimension < 2) {
@@ -142,20 +150,28 @@ public:
         }
         write_nodes();
         mesh_.dimension == 3 ? write_tetrahedra() : write_triangles();
-        for (const auto& file :
-             files_) { // so that what can fail has not failed before the first gets its name
-            file->finish();
-        }
-        for (const auto& file : files_) {
-            file->commit();
-        }
+        require_no_others();
     }
 
 private:
-    AtomicFile& open(const char* extension) {
+    std::filesystem::path path_of(const char* extension) const {
         std::filesystem::path path = stem_;
         path += extension;
-        return *files_.emplace_back(std::make_unique<AtomicFile>(path));
+        return path;
+    }
+    AtomicFile& open(const char* extension) { return files_.open(path_of(extension)); }
+
+    /// A file of another mesh would be read along with ours.
+    void require_no_others() const {
+        const auto& ours = files_.paths();
+        for (const char* extension : {".ele", ".neigh", ".face"}) {
+            const std::filesystem::path path = path_of(extension);
+            if (std::find(ours.begin(), ours.end(), path) == ours.end() && std::filesystem::exists(path)) {
+                throw OutputError(fmt::format("{}: stands there already and would be taken for a part of the "
+                                              "new mesh, which has no such file; remove it",
+                                              path.string()));
+            }
+        }
     }
 
     /// Rows of a number, the leading column, attributes, and perhaps a marker, below a line of counts.
@@ -191,8 +207,8 @@ private:
     void write_tetrahedra() {
         const DataColumn* neighbors = find(mesh_.cell_data, "neighbors", 4);
         std::vector<DataColumn> attributes = without(mesh_.cell_data, neighbors);
-        if (!mesh_.groups.empty() && find(attributes, "group", 1) == nullptr) {
-            attributes.insert(attributes.begin(), integers("group", group_numbers(mesh_)));
+        if (!mesh_.groups.empty() && find(attributes, group_attribute, 1) == nullptr) {
+            attributes.insert(attributes.begin(), group_numbers(mesh_.cells.rows(), mesh_.groups));
         }
         write_table(open(".ele"), "4", integers("", mesh_.cells), attributes, nullptr);
         if (neighbors != nullptr) {
@@ -200,6 +216,16 @@ private:
             file.write(fmt::format("{} 4\n", mesh_.cells.rows()));
             write_rows(file, mesh_.cells.rows(), {row_numbers(mesh_.cells.rows()), *neighbors});
         }
+        for (const MeshColumns::Part& part : mesh_.lower) {
+            if (part.dimension == 2) {
+                write_faces(part.cells, group_markers(part.cells, part.groups));
+            }
+        }
+    }
+
+    static std::optional<DataColumn> group_markers(const Column<std::int64_t>& cells,
+                                                   const std::vector<MeshColumns::Group>& groups) {
+        return groups.empty() ? std::nullopt : std::optional{group_numbers(cells.rows(), groups)};
     }
 
     std::optional<DataColumn> triangle_markers() const {
@@ -208,26 +234,44 @@ private:
                 return *found;
             }
         }
-        return mesh_.groups.empty() ? std::nullopt : std::optional{integers("group", group_numbers(mesh_))};
+        return group_markers(mesh_.cells, mesh_.groups);
     }
 
     void write_triangles() {
-        const std::size_t rows = mesh_.cells.rows();
         const std::optional<DataColumn> marker = triangle_markers();
-        std::vector<DataColumn> columns{row_numbers(rows), integers("", mesh_.cells)};
+        write_faces(mesh_.cells, marker);
+        AtomicFile& file = open(complex_);
+        file.write(fmt::format("0 3 0 0\n{} {}\n", mesh_.cells.rows(), marker ? 1 : 0));
+        write_facets(file, marker);
+        write_places(file, "holes", 3);
+        write_places(file, "regions", 5);
+    }
+
+    void write_faces(const Column<std::int64_t>& triangles, const std::optional<DataColumn>& marker) {
+        std::vector<DataColumn> columns{row_numbers(triangles.rows()), integers("", triangles)};
         if (marker) {
             columns.push_back(*marker);
         }
-        AtomicFile& faces = open(".face");
-        faces.write(fmt::format("{} {}\n", rows, marker ? 1 : 0));
-        write_rows(faces, rows, columns);
-        columns.front() =
-            integers("", Column<std::int64_t>::constant(rows, 3)); // corners instead of a number
-        AtomicFile& complex = open(".smesh");
-        complex.write(fmt::format("0 3 0 0\n{} {}\n", rows, marker ? 1 : 0));
-        write_rows(complex, rows, columns);
-        write_places(complex, "holes", 3);
-        write_places(complex, "regions", 5);
+        AtomicFile& file = open(".face");
+        file.write(fmt::format("{} {}\n", triangles.rows(), marker ? 1 : 0));
+        write_rows(file, triangles.rows(), columns);
+    }
+
+    /// In a .smesh a line of 3, corners and marker; in a .poly a line of 1 polygon, 0 holes and marker, and
+    /// one of 3 and the corners.
+    void write_facets(AtomicFile& file, const std::optional<DataColumn>& marker) const {
+        const std::size_t rows = mesh_.cells.rows();
+        const auto all = [rows](std::int64_t value) {
+            return integers("", Column<std::int64_t>::constant(rows, value));
+        };
+        const bool nested = complex_ == std::string_view{".poly"};
+        std::vector<DataColumn> columns{all(3), integers("", mesh_.cells)};
+        const std::vector<DataColumn> marks(marker ? 1 : 0, marker.value_or(DataColumn{}));
+        columns.insert(nested ? columns.begin() : columns.end(), marks.begin(), marks.end());
+        if (nested) {
+            columns.insert(columns.begin(), {all(1), all(0)});
+        }
+        write_rows(file, rows, columns, nested ? 2 + marks.size() : 0);
     }
 
     void write_places(AtomicFile& file, const std::string& name, int width) const {
@@ -246,15 +290,36 @@ private:
         write_rows(file, column.rows(), {row_numbers(column.rows()), {"", Scalar::float64, column}});
     }
 
+    AtomicFiles& files_;
     std::filesystem::path stem_;
+    const char* complex_;
     const MeshColumns& mesh_;
-    std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 
 } // namespace
 
+void write_tetgen(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh) {
+    constexpr std::array<std::string_view, 2> of_tetrahedra{".node", ".ele"};
+    constexpr std::array<std::string_view, 4> of_triangles{".node", ".face", ".smesh", ".poly"};
+    const std::string extension = lower_extension(path);
+    const auto among = [&](const auto& names) {
+        return std::find(names.begin(), names.end(), extension) != names.end();
+    };
+    const bool known = among(of_tetrahedra) || among(of_triangles);
+    if (known && !(mesh.dimension == 3 ? among(of_tetrahedra) : among(of_triangles))) {
+        throw UsageError(fmt::format("{}: has no place for {}; TetGen keeps them in files called {}",
+                                     path.string(), mesh.dimension == 3 ? "tetrahedra" : "these cells",
+                                     mesh.dimension == 3 ? ".node and .ele"
+                                                         : ".node, .face, .smesh and .poly, if triangles"));
+    }
+    const auto stem = known ? std::filesystem::path{path}.replace_extension() : path;
+    TetgenWriter{files, stem, extension == ".poly" ? ".poly" : ".smesh", mesh}.write();
+}
+
 void write_tetgen(const std::filesystem::path& stem, const MeshColumns& mesh) {
-    TetgenWriter{stem, mesh}.write();
+    AtomicFiles files;
+    TetgenWriter{files, stem, ".smesh", mesh}.write();
+    files.commit();
 }
 
 } // namespace slabhull::io

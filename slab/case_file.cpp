@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace slabhull {
 
@@ -252,6 +253,28 @@ private:
                     table.fail("formats", fmt::format("\"vtu\" and \"msh\", not \"{}\"", format));
                 }
             }
+        }
+        for (const char* format : {"vtu", "msh"}) {
+            read_writing(table.optional_table(format), format);
+        }
+        table.require_all_known();
+    }
+
+    /// How files of a format are written: [output.msh] version = "2.2".
+    void read_writing(KeyTable table, const char* format) {
+        const io::Offers& offers = io::format_named(format)->offers;
+        const auto one_of = [&](const char* key, const std::vector<std::string_view>& offered) {
+            const std::string chosen = table.optional_text(key).value_or("");
+            if (!chosen.empty() && std::find(offered.begin(), offered.end(), chosen) == offered.end()) {
+                table.fail(key,
+                           fmt::format("one of \"{}\", not \"{}\"", fmt::join(offered, "\", \""), chosen));
+            }
+            return chosen;
+        };
+        io::WriteOptions& writing = case_.writing[format];
+        writing.encoding = one_of("encoding", offers.encodings);
+        if (offers.versions.size() > 1) {
+            writing.version = one_of("version", offers.versions);
         }
         table.require_all_known();
     }

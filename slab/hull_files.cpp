@@ -97,7 +97,7 @@ MeshColumns mesh_columns(const Hull<D>& hull) {
 }
 
 template<int D>
-void write_hull_vtu(io::AtomicFile& file, const Hull<D>& hull) {
+void write_hull_vtu(io::AtomicFile& file, const Hull<D>& hull, const io::WriteOptions& options) {
     MeshColumns mesh = mesh_columns(hull);
     const std::size_t cells = hull.cells.size();
     const Array<Index> cell = a_cell_of_each_point(hull);
@@ -117,7 +117,7 @@ void write_hull_vtu(io::AtomicFile& file, const Hull<D>& hull) {
                        {"time", 1, Array<double>{hull.time[0], hull.time[1]}},
                        number_field("dimension", {D})};
     add_patch_fields(mesh, hull.patches);
-    io::write_vtu(file, mesh);
+    io::write_vtu(file, mesh, io::vtu_encoding(options));
 }
 
 /// Runs of cells of one region or patch, in cell order.
@@ -146,7 +146,7 @@ std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
 }
 
 template<int D>
-void write_hull_msh(io::AtomicFile& file, const Hull<D>& hull) {
+void write_hull_msh(io::AtomicFile& file, const Hull<D>& hull, const io::WriteOptions& options) {
     MeshColumns mesh = mesh_columns(hull);
     mesh.groups = groups_of(hull);
     if constexpr (D == 3) {
@@ -157,7 +157,7 @@ void write_hull_msh(io::AtomicFile& file, const Hull<D>& hull) {
     // Element tags count from 1.
     mesh.cell_data = {
         {"neighbor", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors}, 1)}};
-    io::write_msh(file, mesh);
+    io::write_msh(file, mesh, io::msh_options(options));
 }
 
 std::size_t row_count(const DataArray& array) {
@@ -284,11 +284,12 @@ Column<std::int64_t> optional_column(const Array<std::int64_t>& values, int comp
 } // namespace
 
 template<int D>
-void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& format) {
+void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& format,
+                const io::WriteOptions& options) {
     if (format == "msh") {
-        write_hull_msh(file, hull);
+        write_hull_msh(file, hull, options);
     } else {
-        write_hull_vtu(file, hull);
+        write_hull_vtu(file, hull, options);
     }
 }
 
@@ -409,8 +410,8 @@ MeshArrays<D> mesh_of_soup(const io::Soup& soup) {
     return mesh;
 }
 
-template void write_hull<2>(io::AtomicFile&, const Hull<2>&, const std::string&);
-template void write_hull<3>(io::AtomicFile&, const Hull<3>&, const std::string&);
+template void write_hull<2>(io::AtomicFile&, const Hull<2>&, const std::string&, const io::WriteOptions&);
+template void write_hull<3>(io::AtomicFile&, const Hull<3>&, const std::string&, const io::WriteOptions&);
 template void write_cap<2>(io::AtomicFile&, const SpatialMesh<2>&, double);
 template void write_cap<3>(io::AtomicFile&, const SpatialMesh<3>&, double);
 template SpatialMesh<2> read_cap<2>(const std::filesystem::path&);

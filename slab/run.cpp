@@ -225,7 +225,7 @@ private:
 
     void write(const Slab<D>& slab, SlabFiles& files) const {
         for (std::size_t i = 0; i < case_.formats.size(); ++i) {
-            write_hull(*files.open[i], slab.hull, case_.formats[i]);
+            write_hull(*files.open[i], slab.hull, case_.formats[i], case_.writing_of(case_.formats[i]));
             files.open[i]->finish();
         }
         write_cap(*files.open.back(), slab.terminating, slab.hull.time[1]);

@@ -72,6 +72,43 @@ Order cells_of_region(io::Soup& soup, std::size_t top, int region) {
                        : in_group(soup, top, region == 0 ? initial : terminating);
 }
 
+// --- parts
+
+constexpr std::int64_t initial_key = -1;
+constexpr std::int64_t terminating_key = -2;
+
+/// By cell: the number of its patch or group, 0 for none, or that of a cap.
+std::vector<std::int64_t> part_keys(const io::Soup& soup, std::size_t dimension) {
+    const io::SimplexBlock& block = soup.simplices[dimension];
+    std::vector<std::int64_t> keys(block.physical.begin(), block.physical.end());
+    keys.resize(block.size(static_cast<int>(dimension)));
+    if (static_cast<int>(dimension) != soup.top_dimension()) {
+        return keys;
+    }
+    if (const Numbers* patches = whole_numbers(soup.cell_data, "patch")) {
+        keys.assign(patches->begin(), patches->end());
+    }
+    if (const Numbers* regions = whole_numbers(soup.cell_data, "region")) {
+        for (std::size_t c = 0; c < keys.size(); ++c) {
+            const std::int64_t region = (*regions)[c];
+            keys[c] = region == 0 ? initial_key : region == 2 ? terminating_key : keys[c];
+        }
+    }
+    return keys;
+}
+
+std::string part_name(const io::Soup& soup, std::size_t dimension, std::int64_t key) {
+    if (key == initial_key || key == terminating_key) {
+        return key == initial_key ? "initial" : "terminating";
+    }
+    PatchList patches = listed_patches(soup);
+    patches.insert(patches.end(), soup.groups[dimension].begin(), soup.groups[dimension].end());
+    const auto found = std::find_if(patches.begin(), patches.end(), [key](const Patch& patch) {
+        return patch.number == key && !patch.name.empty();
+    });
+    return key == 0 ? "rest" : found == patches.end() ? fmt::format("patch_{}", key) : found->name;
+}
+
 // --- boundary
 
 template<std::size_t N>
@@ -90,19 +127,6 @@ void require_distinct_vertices(const io::Soup& soup, const Array<Simplex<D>>& ce
                              {{"cell", soup.simplices[D].tag(c), ""}}};
         }
     }
-}
-
-/// The facet opposite to vertex i, oriented outward.
-template<int D>
-Facet<D> outer_facet(const Simplex<D>& cell, std::size_t i) {
-    Facet<D> facet;
-    std::copy(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(i), facet.begin());
-    std::copy(cell.begin() + static_cast<std::ptrdiff_t>(i) + 1, cell.end(),
-              facet.begin() + static_cast<std::ptrdiff_t>(i));
-    if (i % 2 == 1) {
-        std::swap(facet[0], facet[1]);
-    }
-    return facet;
 }
 
 template<int D>
@@ -125,7 +149,7 @@ Boundary<D> boundary_of(const io::Soup& soup) {
     Boundary<D> boundary;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         for (std::size_t i = 0; i <= D; ++i) {
-            const Facet<D> facet = outer_facet<D>(cells[c], i);
+            const Facet<D> facet = outward_facet<D>(cells[c], static_cast<int>(i));
             if (adjacency.neighbors[c][i] == no_index && !overfull.contains(sorted(facet))) {
                 boundary.facets.push_back(facet);
                 boundary.cells.push_back(static_cast<Index>(c));
@@ -229,6 +253,35 @@ void select_patch(io::Soup& soup, const std::string& name) {
                                      known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")))};
     }
     keep_only(soup, orders, fmt::format("on the patch \"{}\"", name));
+}
+
+std::vector<SoupPart> parts_of(const io::Soup& soup) {
+    std::vector<SoupPart> parts;
+    std::map<std::string, std::size_t> place_of;
+    const auto part_called = [&](const std::string& name) -> SoupPart& {
+        const auto [found, added] = place_of.try_emplace(name, parts.size());
+        if (added) {
+            parts.push_back({name, {}});
+        }
+        return parts[found->second];
+    };
+    for (int dimension = soup.top_dimension(); dimension >= 0; --dimension) {
+        const auto d = static_cast<std::size_t>(dimension);
+        const std::vector<std::int64_t> keys = part_keys(soup, d);
+        std::map<std::int64_t, std::string> names;
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            const auto [name, added] = names.try_emplace(keys[i]);
+            if (added) {
+                name->second = part_name(soup, d, keys[i]);
+            }
+            part_called(name->second).cells[d].push_back(static_cast<Index>(i));
+        }
+    }
+    return parts;
+}
+
+void keep_part(io::Soup& soup, const SoupPart& part) {
+    keep_only(soup, part.cells, fmt::format("in the part \"{}\"", part.name));
 }
 
 void extract_boundary(io::Soup& soup) {

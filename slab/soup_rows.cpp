@@ -4,6 +4,7 @@
 #include "soup_cells.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace slabhull::detail {
 
@@ -46,12 +47,17 @@ Array<Index> inverse(const Order& order, std::size_t count) {
     return fresh;
 }
 
-Array<std::int64_t>* whole_numbers(std::vector<io::DataArray>& arrays, const std::string& name,
-                                   int components) {
+const Array<std::int64_t>* whole_numbers(const std::vector<io::DataArray>& arrays, const std::string& name,
+                                         int components) {
     const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const io::DataArray& array) {
         return array.name == name && array.components == components;
     });
     return found == arrays.end() ? nullptr : std::get_if<Array<std::int64_t>>(&found->values);
+}
+
+Array<std::int64_t>* whole_numbers(std::vector<io::DataArray>& arrays, const std::string& name,
+                                   int components) {
+    return const_cast<Array<std::int64_t>*>(whole_numbers(std::as_const(arrays), name, components));
 }
 
 void pick_rows(std::vector<io::DataArray>& arrays, const Order& order) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.h"
 
+#include "mesh_formats.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
-#include "slabhull/io/files.h"
 #include "slabhull/slab/check_embedding.h"
 #include "slabhull/slab/hull_files.h"
 #include "slabhull/slab/report.h"
@@ -21,6 +21,7 @@ namespace {
 
 struct CheckCommand {
     std::string file;
+    std::string from;
     bool json = false;
     bool betti = false; ///< neither this nor the next: as far as it is practical
     bool no_betti = false;
@@ -128,7 +129,7 @@ int check_soup(const CheckCommand& command, const io::Soup& soup, bool hull) {
 
 int check(const CheckCommand& command) {
     set_thread_count(command.threads);
-    const io::Soup soup = io::read_mesh(command.file);
+    const io::Soup soup = read_named(command.file, command.from);
     const MeshKind kind = kind_of(soup);
     return kind.dimension == 2 ? check_soup<2>(command, soup, kind.hull)
                                : check_soup<3>(command, soup, kind.hull);
@@ -139,7 +140,8 @@ int check(const CheckCommand& command) {
 void add_check(CLI::App& program, int& exit_code) {
     auto command = std::make_shared<CheckCommand>();
     CLI::App* app = program.add_subcommand("check", "Validate a mesh or hull, list what is wrong");
-    app->add_option("FILE", command->file, "A hull or mesh: VTU or MSH")->required();
+    app->add_option("FILE", command->file, "A hull or mesh")->required();
+    app->add_option("--from", command->from, "Format of FILE, whatever its extension and content");
     app->add_flag("--json", command->json, "One JSON document on stdout");
     CLI::Option* betti = app->add_flag(
         "--betti", command->betti,
@@ -151,6 +153,7 @@ void add_check(CLI::App& program, int& exit_code) {
     app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")
         ->check(CLI::Range(0, 1024));
     app->footer(
+        formats_help() +
         "Exit code 0: nothing found, 1: defects found.\nExample: slabhull check out/ellipsoid/slab_0000.vtu");
     app->callback([command, &exit_code] { exit_code = check(*command); });
 }

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <optional>
 
@@ -28,6 +30,8 @@ struct ConvertCommand {
     std::string renumber;
     bool boundary = false;
     bool reverse = false;
+    bool split = false;
+    io::WriteOptions writing;
 };
 
 const std::vector<std::string> regions{"initial", "side", "terminating"}; // by their numbers
@@ -85,18 +89,11 @@ void require_dimension(const ConvertCommand& command, const io::Format& format, 
     }
 }
 
-/// Brings what the soup says into the format's own terms, and tells what is lost.
-void adapt(const ConvertCommand& command, const io::Format& format, io::Soup& soup,
-           const std::vector<std::string>& lost_numbers) {
-    format.holds.groups ? arrays_to_groups(soup) : groups_to_arrays(soup);
-    std::vector<std::string> lost = io::losses(format, soup);
-    lost.insert(lost.end(), lost_numbers.begin(), lost_numbers.end());
-    if (!lost.empty()) {
-        tell(command.out, fmt::format("{} does not hold: {}", format.title, fmt::join(lost, "; ")));
-    }
-    if (format.holds.tags) {
-        number_by_tags(soup);
-    }
+/// Formats of named groups, and those that keep only groups, get groups; all others arrays.
+void settle_groups(const io::Format& format, io::Soup& soup) {
+    const bool arrays_stay = io::keeps(format, soup, io::Over::cells, {"patch", 1, Array<std::int64_t>{}});
+    const bool as_groups = format.holds.groups && (format.holds.group_names || !arrays_stay);
+    as_groups ? arrays_to_groups(soup) : groups_to_arrays(soup);
 }
 
 /// Hulls keep the types that docs/formats.md gives their arrays.
@@ -111,22 +108,93 @@ io::MeshColumns columns_to_write(const io::Soup& soup) {
     return mesh;
 }
 
+/// OUT's name with the part's before its extension; what is awkward in a file's name becomes '_'.
+std::filesystem::path path_of_part(const std::filesystem::path& out, std::string name) {
+    std::replace_if(
+        name.begin(), name.end(),
+        [](unsigned char c) { return c <= ' ' || c == 127 || std::strchr("/\\:*?\"<>|", c) != nullptr; },
+        '_');
+    std::filesystem::path path{out};
+    return path.replace_filename(out.stem().string() + "_" + name + out.extension().string());
+}
+
+/// Writes one or several soups; their files appear together, when all are complete.
+class Output {
+public:
+    Output(const ConvertCommand& command, const io::Format& format) : command_{command}, format_{format} {}
+
+    /// Brings what the soup says into the format's own terms.
+    void write(const std::filesystem::path& path, io::Soup soup) {
+        require_dimension(command_, format_, soup);
+        settle_groups(format_, soup);
+        add_losses(io::losses(format_, soup, command_.writing));
+        if (format_.holds.tags) {
+            number_by_tags(soup);
+        }
+        const io::MeshColumns mesh = columns_to_write(soup);
+        const std::size_t first = files_.paths().size();
+        format_.write(files_, path, mesh, command_.writing);
+        std::vector<std::string> names;
+        std::transform(files_.paths().begin() + static_cast<std::ptrdiff_t>(first), files_.paths().end(),
+                       std::back_inserter(names), [](const auto& each) { return each.string(); });
+        told_ += fmt::format("{}: {} points, {} {}\n", fmt::join(names, ", "), soup.points.size(),
+                             mesh.cells.rows(), simplices_called(mesh.dimension));
+    }
+
+    /// Each once, however many parts lose it.
+    void add_losses(const std::vector<std::string>& lost) {
+        for (const std::string& each : lost) {
+            if (std::find(lost_.begin(), lost_.end(), each) == lost_.end()) {
+                lost_.push_back(each);
+            }
+        }
+    }
+
+    void commit() {
+        if (!lost_.empty()) {
+            tell(command_.out, fmt::format("{} does not hold: {}", format_.title, fmt::join(lost_, "; ")));
+        }
+        files_.commit();
+        fmt::print("{}", told_);
+    }
+
+private:
+    const ConvertCommand& command_;
+    const io::Format& format_;
+    io::AtomicFiles files_;
+    std::vector<std::string> lost_;
+    std::string told_; ///< for stdout
+};
+
+void write_parts(const ConvertCommand& command, const io::Soup& soup, Output& output) {
+    const std::vector<SoupPart> parts = parts_of(soup);
+    if (parts.size() == 1 && parts.front().name == "rest") {
+        throw UsageError{fmt::format("--split-output: {} has neither regions nor patches", command.in)};
+    }
+    for (const SoupPart& part : parts) {
+        io::Soup alone = soup;
+        keep_part(alone, part);
+        output.write(path_of_part(command.out, part.name), std::move(alone));
+    }
+}
+
 int convert(const ConvertCommand& command) {
     const io::Format& from = format_to_read(command.in, command.from);
     const io::Format& to = format_to_write(command.out, command.to);
+    io::require_offered(to, command.writing, "--");
     require_sense(command);
     io::Soup soup = from.read(command.in);
     const std::vector<std::string> lost_numbers = io::lost_numbers(soup);
     settle_numbers(soup);
     edit(command, soup);
-    require_dimension(command, to, soup);
-    adapt(command, to, soup, lost_numbers);
-    const io::MeshColumns mesh = columns_to_write(soup);
-    io::AtomicFile file{command.out};
-    to.write(file, mesh);
-    file.commit();
-    fmt::print("{}: {} points, {} {}\n", command.out, soup.points.size(), mesh.cells.rows(),
-               simplices_called(mesh.dimension));
+    Output output{command, to};
+    if (command.split) {
+        write_parts(command, soup, output);
+    } else {
+        output.write(command.out, std::move(soup));
+    }
+    output.add_losses(lost_numbers);
+    output.commit();
     return 0;
 }
 
@@ -139,6 +207,13 @@ void add_convert(CLI::App& program, int& exit_code) {
     app->add_option("OUT", command->out, "The file to write; whole, or not at all")->required();
     app->add_option("--from", command->from, "Format of IN, whatever its extension");
     app->add_option("--to", command->to, "Format of OUT, whatever its extension");
+    app->add_flag("--split-output", command->split,
+                  "A file for each region and patch: OUT with _initial, _terminating, _PATCH in its name");
+    app->add_option("--encoding", command->writing.encoding,
+                    "How OUT stores values: binary or ascii (MSH); raw, zlib, lz4 or ascii (VTU)");
+    app->add_option("--version", command->writing.version, "Version of OUT's format: 4.1 or 2.2 (MSH)");
+    app->add_flag("--four-dimensional", command->writing.four_dimensional,
+                  "OUT in Medit's dialect with vertices x y z t, from the point data t");
     app->add_option("--region", command->region, "Of a hull, only that part: initial, side or terminating")
         ->check(CLI::IsMember(regions));
     app->add_option("--patch", command->patch,
@@ -150,11 +225,11 @@ void add_convert(CLI::App& program, int& exit_code) {
     app->add_option("--renumber", command->renumber,
                     "Number points and cells along a space-filling curve: curve")
         ->check(CLI::IsMember({"curve"}));
-    app->footer(
-        "These are done in the order in which they are listed. What OUT's format cannot hold is told on "
-        "stderr.\n" +
-        formats_help() +
-        "Example: slabhull convert out/room/slab_0000.vtu side.msh --region side --renumber curve");
+    app->footer("Operations from --region on are done in the order in which they are listed. What OUT's "
+                "format cannot hold is told on "
+                "stderr.\n" +
+                formats_help() +
+                "Example: slabhull convert out/room/slab_0000.vtu side.msh --region side --renumber curve");
     app->callback([command, &exit_code] { exit_code = convert(*command); });
 }
 

@@ -51,6 +51,10 @@ const io::Format& format_to_write(const std::string& file, const std::string& na
                   [](const io::Format& format) { return format.write != nullptr; });
 }
 
+io::Soup read_named(const std::string& file, const std::string& name) {
+    return name.empty() ? io::read_mesh(file) : format_to_read(file, name).read(file);
+}
+
 std::string formats_help() {
     std::string text = "Formats:\n";
     for (const io::Format& format : io::formats()) {

@@ -12,6 +12,10 @@ namespace slabhull::tools {
 const io::Format& format_to_read(const std::string& file, const std::string& name);
 const io::Format& format_to_write(const std::string& file, const std::string& name);
 
+/// Reads the file in the format that `name` says or, where it is empty, as io::read_mesh() does. Throws
+/// UsageError for a name that is none.
+io::Soup read_named(const std::string& file, const std::string& name);
+
 /// A line for each format: name, extensions, read or written; for --help.
 std::string formats_help();
 

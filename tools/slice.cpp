@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.h"
 
+#include "mesh_formats.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
-#include "slabhull/io/files.h"
 #include "slabhull/slab/hull_files.h"
 #include "slabhull/slab/report.h"
 #include "slabhull/slab/slice.h"
@@ -22,6 +22,7 @@ namespace {
 
 struct SliceCommand {
     std::vector<std::string> files;
+    std::string from;
     std::string time;
     std::string times;
     std::string out;
@@ -157,7 +158,7 @@ public:
 
 private:
     void cut_file(const std::string& file) {
-        const io::Soup soup = io::read_mesh(file);
+        const io::Soup soup = read_named(file, command_.from);
         const MeshKind kind = kind_of(soup);
         if (!kind.hull) {
             throw InputError{fmt::format("{}: a mesh in space, not the hull of a slab", file)};
@@ -280,7 +281,8 @@ void add_slice(CLI::App& program, int& exit_code) {
     CLI::App* app = program.add_subcommand(
         "slice",
         "Cut hulls at instants: the domain's closed boundary with its patches, and what it encloses");
-    app->add_option("FILE", command->files, "Hulls of one or more slabs: VTU or MSH")->required();
+    app->add_option("FILE", command->files, "Hulls of one or more slabs")->required();
+    app->add_option("--from", command->from, "Format of all FILEs, whatever their extension and content");
     CLI::Option_group* when = app->add_option_group("When", "One of");
     when->add_option("--time", command->time, "One time");
     when->add_option("--times", command->times, "first:last:number, both ends included, or a list t1,t2,...");

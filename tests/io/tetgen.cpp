@@ -226,8 +226,10 @@ TEST_CASE("Tetrahedra written as TetGen's files come back bit for bit", "[io]") 
     CHECK(soup.find_cell_data("pair")->components == 2);
     CHECK(values<std::int64_t>(soup.find_cell_data("pair")) ==
           Integers(grid.pairs.begin(), grid.pairs.end()));
-    CHECK(values<std::int64_t>(soup.find_cell_data("group")).front() == 5);
-    CHECK(values<std::int64_t>(soup.find_cell_data("group")).back() == 9);
+    CHECK(soup.simplices[3].physical.front() == 5);
+    CHECK(soup.simplices[3].physical.back() == 9);
+    CHECK(soup.groups[3] == PatchList{{2, ""}, {5, ""}, {9, ""}});
+    CHECK(soup.cell_data.size() == mesh.cell_data.size());
 }
 
 TEST_CASE("Triangles with markers, holes and adjacency of tetrahedra survive TetGen's files", "[io]") {
@@ -243,7 +245,16 @@ TEST_CASE("Triangles with markers, holes and adjacency of tetrahedra survive Tet
         CHECK(soup.simplices[2].physical.front() == 5);
         CHECK(soup.groups[2] == PatchList{{2, ""}, {5, ""}, {9, ""}});
     }
+    io::AtomicFiles files_of_poly;
+    io::write_tetgen(files_of_poly, folder / "p.POLY", mesh);
+    files_of_poly.commit();
+    CHECK(folder.file_count() == 6); // .node and .face twice, .smesh, .poly
+    const io::Soup nested = io::read_tetgen(folder / "p.poly");
     const io::Soup soup = io::read_tetgen(folder / "a.smesh");
+    CHECK(nested.points == soup.points);
+    CHECK(nested.simplices[2].vertices == soup.simplices[2].vertices);
+    CHECK(nested.simplices[2].physical == soup.simplices[2].physical);
+    CHECK(values<double>(nested.find_field_data("regions")) == Reals{1, 2, 3, 4, 5});
     CHECK(values<double>(soup.find_field_data("holes")) == Reals{0.1, 0.2, 0.3});
     CHECK(values<double>(soup.find_field_data("regions")) == Reals{1, 2, 3, 4, 5});
     const Files files;
@@ -264,6 +275,25 @@ TEST_CASE("TetGen's files appear all or not at all, and lines are refused", "[io
     CHECK_THROWS_AS(io::write_tetgen(folder / "a", specimens::Grid{3, 1}.columns()), OutputError);
     CHECK_THROWS_AS(io::write_tetgen(folder / "b", specimens::Grid{1, 1}.columns()), UsageError);
     CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("TetGen files of cells that their name does not fit, or beside those of another mesh, are refused",
+          "[io]") {
+    const scratch::Folder folder;
+    const auto write = [&](const char* name, int dimension) {
+        io::AtomicFiles files;
+        io::write_tetgen(files, folder / name, specimens::Grid{dimension, 1}.columns());
+        files.commit();
+    };
+    for (const char* name : {"a.face", "a.smesh", "a.poly"}) {
+        CHECK_THROWS_AS(write(name, 3), UsageError);
+    }
+    CHECK_THROWS_AS(write("a.ele", 2), UsageError);
+    CHECK(folder.file_count() == 0);
+    write("a.ele", 3);
+    CHECK_THROWS_AS(write("a.node", 2), OutputError); // a.ele would be read with its points
+    CHECK(io::read_tetgen(folder / "a.node").simplices[3].size(3) == 6);
+    CHECK(folder.file_count() == 2);
 }
 
 #ifdef TETLIBRARY
@@ -294,6 +324,15 @@ TEST_CASE("TetGen meshes a surface that we write, and we read all that it saves"
     mesh.points = Column<double>::over(std::span<const double>{x}, 3);
     mesh.cells = Column<std::int64_t>::over(std::span<const std::int64_t>{corners}, 3);
     mesh.groups = {{0, 3, 8, "sides"}, {3, 4, 6, "slope"}};
+    io::AtomicFiles files_of_poly;
+    io::write_tetgen(files_of_poly, folder / "p.poly", mesh);
+    files_of_poly.commit();
+    tetgenio nested;
+    std::string poly_stem = folder / "p";
+    REQUIRE(nested.load_poly(poly_stem.data()));
+    REQUIRE(nested.numberoffacets == 4);
+    CHECK(nested.facetmarkerlist[3] == 6);
+    CHECK(nested.facetlist[1].polygonlist[0].vertexlist[2] == 3);
     io::write_tetgen(folder / "a", mesh);
     tetgenio surface;
     tetgenio cells;

@@ -4,6 +4,7 @@
 #include "slabhull/io/files.h"
 
 #include <fmt/format.h>
+#include <tuple>
 #include <utility>
 
 int main(int argument_count, char** arguments) {
@@ -22,7 +23,14 @@ int main(int argument_count, char** arguments) {
             const auto path = folder / fmt::format("grid{}_{}.vtu", dimension, name);
             slabhull::io::write_vtu(path, grid.columns(), encoding);
         }
-        slabhull::io::write_msh(folder / fmt::format("grid{}.msh", dimension), grid.columns());
+        using slabhull::io::MshVersion;
+        for (const auto& [name, version, ascii] : {std::tuple{"", MshVersion::v4_1, false},
+                                                   {"_ascii", MshVersion::v4_1, true},
+                                                   {"_22", MshVersion::v2_2, false},
+                                                   {"_22_ascii", MshVersion::v2_2, true}}) {
+            slabhull::io::write_msh(folder / fmt::format("grid{}{}.msh", dimension, name), grid.columns(),
+                                    {.version = version, .ascii = ascii});
+        }
         slabhull::io::write_medit(folder / fmt::format("grid{}.mesh", dimension), grid.columns());
         slabhull::io::write_medit(folder / fmt::format("grid{}_4d.mesh", dimension), grid.columns(),
                                   {.four_dimensional = true});

@@ -109,6 +109,196 @@ class RoundTrips(ConvertTest):
         self.assertIn("triangles", result.err)
 
 
+class Ways(ConvertTest):
+    """The encodings, versions and dialects that formats offer."""
+
+    def test_a_hull_goes_through_each_encoding_of_vtu_and_comes_back_with_the_same_bytes(self):
+        for text in (CIRCLE, SPHERE):
+            vtu, _ = self.hull(text)
+            sizes = {}
+            for encoding in ("raw", "zlib", "lz4", "ascii"):
+                there = self.convert(vtu, f"{encoding}.vtu", "--encoding", encoding)
+                sizes[encoding] = there.stat().st_size
+                self.assertEqual(self.convert(there, "back.vtu").read_bytes(), vtu.read_bytes(), encoding)
+            self.assertEqual(len(set(sizes.values())), 4)
+            self.assertLess(sizes["zlib"], sizes["lz4"])
+            self.assertLess(sizes["lz4"], sizes["raw"])
+
+    def test_a_hull_goes_through_each_kind_of_msh_and_stays_the_same(self):
+        for text in (CIRCLE, SPHERE):
+            vtu, _ = self.hull(text)
+            plain = self.convert(vtu, "plain.msh", told=["field data"])
+            for version in ("4.1", "2.2"):
+                for encoding, mark in (("binary", 1), ("ascii", 0)):
+                    there = self.convert(vtu, "there.msh", "--version", version, "--encoding", encoding,
+                                         told=["field data"])
+                    self.assertTrue(there.read_bytes().startswith(f"$MeshFormat\n{version} {mark} 8".encode()))
+                    back = self.convert(there, "back.msh")
+                    self.assertEqual(back.read_bytes(), plain.read_bytes(), (version, encoding))
+                    self.assertEqual(self.check(there)["cells_by_patch"], self.check(vtu)["cells_by_patch"])
+
+    @unittest.skipUnless(HAVE_READERS, "no meshio here")
+    def test_groups_and_their_names_are_in_each_kind_of_msh(self):
+        import meshio
+        import numpy as np
+        first = meshio.read(ROOM)
+        for options in (["--version", "2.2"], ["--encoding", "ascii"], ["--version", "2.2", "--encoding", "ascii"]):
+            second = meshio.read(self.convert(ROOM, "room.msh", *options, told=["geometric entities"]))
+            np.testing.assert_array_equal(second.points, first.points)
+            self.assertEqual({k: list(v) for k, v in second.field_data.items()},
+                             {k: list(v) for k, v in first.field_data.items()})
+            for kind in ("triangle", "tetra"):
+                np.testing.assert_array_equal(second.get_cell_data("gmsh:physical", kind),
+                                              first.get_cell_data("gmsh:physical", kind))
+
+    def test_medit_s_dialect_keeps_the_times_of_a_hull(self):
+        vtu, _ = self.hull(SPHERE)
+        plain = self.convert(vtu, "plain.mesh", told=["names of groups: ", "initial", "point data t,"])
+        self.assertIn("Dimension 3", plain.read_text()[:60])
+        result = slabhull("convert", vtu, self.dir / "four.mesh", "--four-dimensional")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertNotIn("point data t,", result.err)
+        self.assertIn("Dimension 4", (self.dir / "four.mesh").read_text()[:60])
+        there, back = (json.loads(slabhull("info", path, "--json").out) for path in (vtu, self.dir / "four.mesh"))
+        self.assertEqual(back["kind"], "hull")
+        self.assertEqual(back["bounds"], there["bounds"])
+        self.assertEqual(back["measure"], there["measure"])
+        result = slabhull("convert", ROOM, self.dir / "room.mesh", "--four-dimensional")
+        self.assertEqual(result.code, 2)
+        self.assertIn('point data "t"', result.err)
+        self.assertFalse((self.dir / "room.mesh").exists())
+
+    def test_a_hull_goes_through_tetgen_s_files_and_stays_sound(self):
+        vtu, _ = self.hull(SPHERE)
+        result = slabhull("convert", vtu, self.dir / "hull.ele")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("field data slab, time", result.err)
+        for name in ("hull.node", "hull.ele", "hull.neigh"):
+            self.assertIn(name, result.out)
+            self.assertTrue((self.dir / name).exists())
+        back = self.convert(self.dir / "hull.node", "back.vtu")
+        for path in (back, self.dir / "hull.ele"):
+            seen = self.check(path)
+            for key in ("cells_by_region", "measure", "betti"):
+                self.assertEqual(seen[key], self.check(vtu)[key], path)
+
+    def test_tetgen_files_are_called_after_the_stem_and_leave_none_where_one_cannot_be_written(self):
+        for name, files in (("a.poly", {"a.node", "a.face", "a.poly"}), ("b.smesh", {"b.node", "b.face", "b.smesh"}),
+                            ("c.data", {"c.data.node", "c.data.face", "c.data.smesh"})):
+            before = set(self.dir.iterdir())
+            self.convert(ROOM, name, "--to", "tetgen", "--extract-boundary", told=["names of groups: bar, duct"])
+            self.assertEqual({path.name for path in set(self.dir.iterdir()) - before}, files)
+            seen = json.loads(slabhull("info", sorted(set(self.dir.iterdir()) - before)[-1], "--json",
+                                       "--from", "tetgen").out)
+            self.assertEqual(len([group for group in seen["groups"] if group["cells"]]), 3)
+        (self.dir / "d.face").mkdir()
+        self.refused_arguments(5, ["d.face"], ROOM, self.dir / "d.node")
+        self.assertEqual([path.name for path in self.dir.glob("d.*")], ["d.face"])
+        self.refused_arguments(2, ["e.smesh", ".ele"], ROOM, self.dir / "e.smesh")
+
+    def test_lower_simplices_and_groups_go_through_medit_mfem_and_tetgen(self):
+        room = json.loads(slabhull("info", ROOM, "--json").out)
+        groups = [(g["dimension"], g["number"], g["cells"]) for g in room["groups"]]
+        for name in ("room.mesh", "room.mfem", "room.ele"):
+            there = self.convert(ROOM, name, told=["names of groups: bar, duct, room, walls"])
+            seen = json.loads(slabhull("info", self.convert(there, "back.msh"), "--json").out)
+            self.assertEqual([(g["dimension"], g["number"], g["cells"]) for g in seen["groups"]], groups, name)
+            self.assertEqual(seen["counts"], room["counts"], name)
+
+
+class Parts(ConvertTest):
+    def test_a_hull_is_split_into_its_caps_and_the_patches_of_its_side(self):
+        for text in (CIRCLE, SPHERE):
+            vtu, msh = self.hull(text)
+            whole = self.check(vtu)
+            for source in (vtu, msh):
+                result = slabhull("convert", source, self.dir / "part.vtu", "--split-output")
+                self.assertEqual(result.code, 0, result.err)
+                self.assertEqual(len(result.out.splitlines()), 4)
+                counts = {}
+                for path in self.dir.glob("part_*.vtu"):
+                    info = json.loads(slabhull("info", path, "--json").out)
+                    counts[path.stem] = info["counts"]["triangles" if info["dimension"] == 2 else "tetrahedra"]
+                    path.unlink()
+                self.assertEqual(set(counts), {"part_initial", "part_terminating", "part_body", "part_walls"})
+                self.assertEqual(counts["part_initial"], whole["cells_by_region"]["initial"])
+                self.assertEqual(sum(counts.values()), whole["counts"]["cells"])
+
+    def test_the_boundary_of_a_mesh_is_split_into_its_patches(self):
+        result = slabhull("convert", ROOM, self.dir / "skin.stl", "--extract-boundary", "--split-output")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertEqual({path.name for path in self.dir.iterdir()},
+                         {"skin_bar.stl", "skin_duct.stl", "skin_walls.stl"})
+        self.assertEqual(len(result.err.splitlines()), 1)
+
+    def test_a_split_that_fails_leaves_nothing(self):
+        self.refused_arguments(2, ["STL", "tetrahedra"], ROOM, self.dir / "room.stl", "--split-output")
+        single = self.dir / "one.off"
+        single.write_text("OFF\n3 1 0\n0 0 1\n1 0 1\n0 1 1\n3 0 1 2\n")
+        self.refused_arguments(2, ["--split-output", "neither regions nor patches"], single,
+                               self.dir / "one.vtu", "--split-output")
+        self.assertEqual([path.name for path in self.dir.iterdir()], ["one.off"])
+
+
+class AllFormatsAreRead(ConvertTest):
+    def test_check_and_slice_read_a_hull_from_whatever_holds_it(self):
+        vtu, _ = self.hull(SPHERE)
+        sound = self.check(vtu)
+        for name, told in (("hull.vtk", ()), ("hull.ele", ["field data"])):
+            path = self.convert(vtu, name, told=told)
+            self.assertEqual(self.check(path)["measure"], sound["measure"])
+            result = slabhull("slice", path, "--time", "0.1", "--out", self.dir / "cut.vtu", "--json")
+            self.assertEqual(result.code, 0, result.err)
+            self.assertLess(json.loads(result.out)["sections"][0]["measure"]["closure"], 1e-9)
+
+    def test_a_domain_is_built_from_whatever_holds_it(self):
+        text = (ROOT / "examples/room.toml").read_text()
+        (self.dir / "room.msh").write_bytes(ROOM.read_bytes())
+        _, gmsh = self.build(self.case(text, "room.toml"), out="gmsh")
+        for name in ("room.mfem", "room.mesh", "room.node"):
+            self.convert(ROOM, name, told=["names of groups"])
+            numbered = text.replace("room.msh", name)
+            for patch in json.loads(slabhull("info", ROOM, "--json").out)["groups"]:
+                numbered = numbered.replace(f"motion.{patch['name']}]", f"motion.{patch['number']}]")
+                numbered = numbered.replace(f"project.{patch['name']}]", f"project.{patch['number']}]")
+            _, ours = self.build(self.case(numbered, "numbered.toml"), out=name)
+            self.assertEqual(ours["slabs"][0]["measure"], gmsh["slabs"][0]["measure"], name)
+
+    def test_a_file_without_a_telling_name_is_known_by_its_content_or_by_from(self):
+        vtu, msh = self.hull(CIRCLE)
+        for source, name in ((vtu, "vtu"), (msh, "msh"), (self.convert(vtu, "a.vtk"), "vtk")):
+            plain = self.dir / "plain"
+            plain.write_bytes(source.read_bytes())
+            self.check(plain)
+            self.assertEqual(slabhull("check", plain, "--from", name).code, 0)
+        self.assertEqual(slabhull("check", plain, "--from", "nothing").code, 2)
+        plain.write_text("no mesh")
+        result = slabhull("check", plain)
+        self.assertEqual(result.code, 3)
+        self.assertIn("neither the name nor the content", result.err)
+
+
+class CaseFiles(ConvertTest):
+    def test_build_writes_the_encodings_and_versions_that_the_case_asks_for(self):
+        vtu, msh = self.hull(CIRCLE)
+        output = '[output.vtu]\nencoding = "zlib"\n[output.msh]\nversion = "2.2"\nencoding = "ascii"\n'
+        out, _ = self.build(self.case(CIRCLE + output), out="other")
+        packed, old = out / "slab_0000.vtu", out / "slab_0000.msh"
+        self.assertIn(b"vtkZLibDataCompressor", packed.read_bytes())
+        self.assertEqual(self.convert(packed, "raw.vtu").read_bytes(), vtu.read_bytes())
+        self.assertTrue(old.read_bytes().startswith(b"$MeshFormat\n2.2 0 8"))
+        for path in (msh, old):
+            self.convert(path, path.parent.name + ".vtu")
+        self.assertEqual((self.dir / "other.vtu").read_bytes(), (self.dir / "out.vtu").read_bytes())
+        for table, words in (('[output.vtu]\nencoding = "lzma"\n', ("encoding", "zlib", "lzma")),
+                             ('[output.vtu]\nversion = "1.0"\n', ("version",)),
+                             ('[output.msh]\nversion = "3"\n', ("version", "4.1"))):
+            result = slabhull("build", self.case(CIRCLE + table), "--out", self.dir / "none")
+            self.assertEqual(result.code, 2, result.err)
+            for word in words:
+                self.assertIn(word, result.err)
+
+
 class Operations(ConvertTest):
     def test_a_hull_renumbered_along_a_curve_is_sound_and_has_the_same_measures(self):
         for text in (CIRCLE, SPHERE):
@@ -188,6 +378,22 @@ class Operations(ConvertTest):
         tets = room.points[room.get_cells_type("tetra")]
         volume = np.abs(np.linalg.det(tets[:, 1:] - tets[:, :1])).sum() / 6
         self.assertAlmostEqual(signed(skin.points[skin.get_cells_type("triangle")]) / volume, 1, delta=1e-12)
+
+    @unittest.skipUnless(HAVE_READERS, "no meshio here")
+    def test_the_domain_lies_to_the_right_of_its_boundary_in_the_plane_as_in_sections(self):
+        import meshio
+        vtu, _ = self.hull(CIRCLE)
+        cap = self.convert(vtu, "cap.vtu", "--region", "terminating")
+        rim = meshio.read(self.convert(cap, "rim.vtu", "--extract-boundary"))
+        cut = self.dir / "cut.vtu"
+        self.assertEqual(slabhull("slice", vtu, "--time", str(self.check(vtu)["time"][1]), "--out", cut).code, 0)
+        section = meshio.read(cut)
+
+        def enclosed(mesh):
+            a, b = (mesh.points[mesh.cells[0].data[:, k], :2] for k in (0, 1))
+            return ((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2).sum()
+        self.assertLess(enclosed(rim), 0)
+        self.assertAlmostEqual(enclosed(rim) / enclosed(section), 1, delta=1e-9)
 
     def test_the_boundary_of_a_side_is_the_boundary_at_both_times(self):
         vtu, _ = self.hull(SPHERE)
@@ -270,7 +476,11 @@ class Refusals(ConvertTest):
                 (["a.xyz", "--from"], ["a.xyz", out]),
                 (["a.xyz", "--to"], ["none.msh", self.dir / "a.xyz"]),
                 (["--to", "nothing"], ["none.msh", out, "--to", "nothing"]),
-                (["TetGen is not written"], ["none.msh", self.dir / "a.data", "--to", "tetgen"]),
+                (["--encoding", "binary, ascii", "zlib"], ["none.msh", self.dir / "a.msh", "--encoding", "zlib"]),
+                (["--encoding", "one way only"], ["none.msh", self.dir / "a.off", "--encoding", "ascii"]),
+                (["--version", "4.1, 2.2", "3"], ["none.msh", self.dir / "a.msh", "--version", "3"]),
+                (["--version"], ["none.msh", out, "--version", "1.0"]),
+                (["--four-dimensional", "Medit"], ["none.msh", out, "--four-dimensional"]),
                 (["--weld"], ["none.msh", out, "--weld=-1"]),
                 (["--scale"], ["none.msh", out, "--scale", "0"]),
                 (["--region"], ["none.msh", out, "--region", "top"]),

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace slabhull::io {
 
@@ -53,6 +54,21 @@ private:
     int descriptor_ = -1;
     std::unique_ptr<BlockWriter> blocks_;
     std::optional<Checksum> checksum_;
+};
+
+/// Files that get their names together: what can fail has been done for all of them before the first does.
+class AtomicFiles {
+public:
+    /// Begins a further one; the reference stays good. Throws OutputError, also for a path that is among
+    /// them.
+    AtomicFile& open(const std::filesystem::path& path);
+    void commit();
+    /// In the order in which they were opened.
+    const std::vector<std::filesystem::path>& paths() const { return paths_; }
+
+private:
+    std::vector<std::filesystem::path> paths_;
+    std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 
 /// Makes a folder and those above it, where they are missing. Throws OutputError.

@@ -44,7 +44,7 @@ Soup read_vtk(const std::filesystem::path& path);
 /// attributes or "marker" of cells, "neighbors" from 0 (checked, -1 for none), "holes" (3 components) and
 /// "regions" (5) of the field. Attributes are doubles called attribute_0 .., or as write_tetgen() names them.
 Soup read_tetgen(const std::filesystem::path& path);
-/// MSH or VTU by extension, or else by content.
+/// A file of any format of io/formats.h, by extension or else by content.
 Soup read_mesh(const std::filesystem::path& path);
 
 /// Medit .mesh, ASCII, of 2, 3 or 4 dimensions: vertices, edges, triangles, tetrahedra. References become
@@ -91,24 +91,35 @@ enum class VtuEncoding { raw, zlib, lz4, ascii };
 /// read_vtu() gives them back.
 void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh,
                VtuEncoding encoding = VtuEncoding::raw);
-/// MSH 4.1 binary: dense tags from 1, one block of nodes, one of elements per group (groups may share a
-/// number, and then an entity), `$Entities` and `$PhysicalNames`; point data as `$NodeData`, cell data as
-/// `$ElementData` (components > 1 become name_0, name_1 ..). Throws LimitError when data have more rows than
-/// the format's 32 bits count, std::invalid_argument when the groups do not hold all cells in order.
-void write_msh(const std::filesystem::path& path, const MeshColumns& mesh);
+enum class MshVersion { v4_1, v2_2 };
+struct MshOptions {
+    MshVersion version = MshVersion::v4_1;
+    bool ascii = false; ///< text with the shortest digits that give the same number again; else binary
+};
+/// MSH: dense tags from 1, one block of nodes, one of elements per group (groups may share a number, and then
+/// an entity), `$PhysicalNames` and, in version 4.1, `$Entities`; point data as `$NodeData`, cell data as
+/// `$ElementData`. Reals of 3 or 9 components are one array, all others become name_0, name_1 ... Throws
+/// LimitError where there is more than the format counts, in 32 bits but for the nodes and elements of
+/// version 4.1, and std::invalid_argument when the groups do not hold all cells in order.
+void write_msh(const std::filesystem::path& path, const MeshColumns& mesh, const MshOptions& options = {});
 /// The same into a file that is the caller's to commit.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh, VtuEncoding encoding = VtuEncoding::raw);
-void write_msh(AtomicFile& file, const MeshColumns& mesh);
+void write_msh(AtomicFile& file, const MeshColumns& mesh, const MshOptions& options = {});
 /// VTK legacy, version 4.2, binary: what write_vtu() writes, arrays as FIELD, int64 as `long` (the one name
 /// that both VTK, where a long has 64 bits, and meshio know), text arrays as bytes whose component is called
 /// slabhull_text. Throws LimitError when the format's 32 bits do not count the points or the values of CELLS.
 void write_vtk(AtomicFile& file, const MeshColumns& mesh);
 
-/// TetGen's files, numbered from 0, stem.node and: of tetrahedra stem.ele and, with cell data "neighbors" of
-/// 4 components, stem.neigh; of triangles stem.face and stem.smesh. Data become attributes, whose names and
-/// types stand in a comment that read_tetgen() knows; point data "marker", one integer, the points' markers.
-/// Groups of tetrahedra become the attribute "group"; a triangle's marker is its "marker", else "patch", else
-/// group, and all else of it is left out. All files appear or none does. Throws UsageError for lines.
+/// TetGen's files, numbered from 0, stem.node and: of tetrahedra stem.ele, with cell data "neighbors" of 4
+/// components stem.neigh, with triangles beside them (MeshColumns::lower) stem.face; of triangles stem.face
+/// and stem.smesh or, where `path` is called so, stem.poly. The stem is `path` without TetGen's extensions.
+/// Data become attributes, whose names and types stand in a comment that read_tetgen() knows; point data
+/// "marker", one integer, the points' markers. Groups of tetrahedra become an attribute that read_tetgen()
+/// makes groups of; a triangle's marker is its "marker", else "patch", else group, and all else of it is left
+/// out. Throws UsageError for lines and where `path` is called as a file that does not hold these cells,
+/// OutputError where an .ele, .neigh or .face of another mesh has the stem.
+void write_tetgen(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh);
+/// The same for a stem, with .smesh.
 void write_tetgen(const std::filesystem::path& stem, const MeshColumns& mesh);
 
 struct MeditOptions {
@@ -116,9 +127,10 @@ struct MeditOptions {
     /// Programs that know Medit's own 2 and 3 dimensions do not read it.
     bool four_dimensional = false;
 };
-/// Medit .mesh, ASCII, version 2 (4 where a count needs 64 bits). References: the numbers of the groups, and
-/// the point data `medit:ref` (integers) or 0. Doubles come back exactly; names and other data are left out.
-/// Throws UsageError when the dialect is asked for without real point data `t`.
+/// Medit .mesh, ASCII, version 2 (4 where a count needs 64 bits), with lower simplices down to lines.
+/// References: the numbers of the groups, and the point data `medit:ref` (integers) or 0. Doubles come back
+/// exactly; names and other data are left out. Throws UsageError when the dialect is asked for without real
+/// point data `t`.
 void write_medit(AtomicFile& file, const MeshColumns& mesh, const MeditOptions& options = {});
 void write_medit(const std::filesystem::path& path, const MeshColumns& mesh,
                  const MeditOptions& options = {});

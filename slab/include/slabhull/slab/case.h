@@ -3,6 +3,7 @@
 
 #include "slabhull/geometry/displacement_series.h"
 #include "slabhull/geometry/trajectory.h"
+#include "slabhull/io/formats.h"
 #include "slabhull/topology/prism_split.h"
 
 #include <array>
@@ -135,7 +136,12 @@ struct Case {
 
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};
+    std::map<std::string, io::WriteOptions> writing; ///< how, by format
 
+    io::WriteOptions writing_of(const std::string& format) const {
+        const auto found = writing.find(format);
+        return found == writing.end() ? io::WriteOptions{} : found->second;
+    }
     /// When slab `slab` begins; that of `slabs` is the end.
     double slab_begin(int slab) const;
     /// Where the slab that begins at `time` ends, when nothing cuts it short.

@@ -3,6 +3,7 @@
 
 #include "slabhull/core/array.h"
 #include "slabhull/io/atomic_file.h"
+#include "slabhull/io/formats.h"
 #include "slabhull/io/soup.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/slice.h"
@@ -19,7 +20,8 @@ namespace slabhull {
 /// Writes a hull in `format`, "vtu" or "msh", with the arrays of docs/formats.md. Streams: no second copy is
 /// made. The file is the caller's to commit. Throws OutputError.
 template<int D>
-void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& format);
+void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& format,
+                const io::WriteOptions& options = {});
 
 /// Writes a cap as a spatial mesh with ids and tracks, as VTU.
 template<int D>

@@ -3,8 +3,10 @@
 
 #include "slabhull/io/soup.h"
 
+#include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace slabhull {
 
@@ -22,10 +24,22 @@ void select_region(io::Soup& soup, int region);
 /// use. Throws UsageError naming the patches that there are.
 void select_patch(io::Soup& soup, const std::string& name);
 
-/// Facets of triangles or tetrahedra that only one of them has, oriented outward (as the cells are oriented),
-/// and their points. Each has its cell's data, but for "neighbors", and the group of the same facet in the
-/// soup or, where the soup has no simplices of that dimension, its cell's. Throws UsageError for other soups
-/// and InputError when there is no boundary or a cell repeats a vertex.
+/// Simplices of a soup that belong together.
+struct SoupPart {
+    std::string name;
+    std::array<Array<Index>, 4> cells; ///< by dimension, ascending
+};
+/// Every simplex is in one part. Of a hull: "initial", "terminating" and the patches of its side; of another
+/// mesh its patches or groups, where groups of several dimensions with one name are one part. A patch without
+/// a name is "patch_" and its number; what is in none is the part "rest".
+std::vector<SoupPart> parts_of(const io::Soup& soup);
+/// Leaves only that part and the points that it uses. Throws InputError when it has no cells.
+void keep_part(io::Soup& soup, const SoupPart& part);
+
+/// Facets of triangles or tetrahedra that only one of them has, oriented outward as docs/architecture.md
+/// tells (as the cells are oriented), and their points. Each has its cell's data, but for "neighbors", and
+/// the group of the same facet in the soup or, where the soup has no simplices of that dimension, its cell's.
+/// Throws UsageError for other soups and InputError when there is no boundary or a cell repeats a vertex.
 void extract_boundary(io::Soup& soup);
 
 /// How much was welded.
