@@ -9,33 +9,49 @@
 namespace slabhull::io {
 
 namespace {
-constexpr std::size_t least_rows = 4096; ///< that are worth a thread
 
-/// Rows [first, first + count), made by several threads.
-void fill_rows(std::size_t first, std::size_t count, std::size_t row_bytes, const RowFill& fill, char* out) {
+/// Rows that are worth a thread, or fewer where they are long.
+std::size_t least_rows(std::size_t longest_row) {
+    constexpr std::size_t most_bytes = std::size_t{1} << 20;
+    constexpr std::size_t enough = 4096;
+    return std::clamp<std::size_t>(most_bytes / longest_row, 1, enough);
+}
+
+/// Makes `count` rows from `first` on at `out`, which has room for as many of the longest. Returns their
+/// bytes.
+std::size_t make_rows(std::size_t first, std::size_t count, std::size_t longest_row, const TextFill& fill,
+                      char* out) {
     constexpr std::size_t pieces = 8;
-    parallel_for(count, std::max(least_rows, count / pieces), [&](std::size_t begin, std::size_t end) {
-        fill(first + begin, first + end, out + begin * row_bytes);
+    const std::size_t piece_rows = std::max(least_rows(longest_row), (count + pieces - 1) / pieces);
+    std::array<std::size_t, pieces> lengths{};
+    parallel_for(count, piece_rows, [&](std::size_t begin, std::size_t end) {
+        char* const piece = out + begin * longest_row;
+        lengths[begin / piece_rows] =
+            static_cast<std::size_t>(fill(first + begin, first + end, piece) - piece);
     });
+    std::size_t used = 0;
+    for (std::size_t piece = 0; piece < pieces; ++piece) { // closes the gaps, where there are any
+        const std::size_t place = piece * piece_rows * longest_row;
+        if (lengths[piece] > 0 && place != used) {
+            std::memmove(out + used, out + place, lengths[piece]);
+        }
+        used += lengths[piece];
+    }
+    return used;
+}
+
+/// Rows of one length as text is made.
+TextFill as_text(const RowFill& fill, std::size_t row_bytes) {
+    return [&fill, row_bytes](std::size_t begin, std::size_t end, char* out) {
+        fill(begin, end, out);
+        return out + (end - begin) * row_bytes;
+    };
 }
 
 } // namespace
 
 void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill) {
-    std::vector<char> split(row_bytes); // a row that reaches into the next block
-    for (std::size_t first = 0; first < rows;) {
-        const std::span<char> room = file.room();
-        const std::size_t count = std::min(rows - first, room.size() / row_bytes);
-        if (count == 0) {
-            fill(first, first + 1, split.data());
-            file.write(split.data(), row_bytes);
-            ++first;
-            continue;
-        }
-        fill_rows(first, count, row_bytes, fill, room.data());
-        file.advance(count * row_bytes);
-        first += count;
-    }
+    stream_text(file, rows, row_bytes, as_text(fill, row_bytes));
 }
 
 void stream_rows(std::size_t rows, std::size_t row_bytes, const RowFill& fill,
@@ -45,35 +61,24 @@ void stream_rows(std::size_t rows, std::size_t row_bytes, const RowFill& fill,
     Array<char> block(std::min(rows, block_rows) * row_bytes);
     for (std::size_t first = 0; first < rows; first += block_rows) {
         const std::size_t count = std::min(rows - first, block_rows);
-        fill_rows(first, count, row_bytes, fill, block.data());
+        make_rows(first, count, row_bytes, as_text(fill, row_bytes), block.data());
         take(first, count, block.data());
     }
 }
 
 void stream_text(AtomicFile& file, std::size_t rows, std::size_t longest_row, const TextFill& fill) {
-    constexpr std::size_t block_bytes = std::size_t{8} << 20;
-    constexpr std::size_t pieces = 8;
-    const std::size_t piece_rows = std::max<std::size_t>(1, block_bytes / longest_row / pieces);
-    const std::size_t block_rows = pieces * piece_rows;
-    Array<char> block(std::min(rows, block_rows) * longest_row);
-    std::array<std::size_t, pieces> lengths{};
-    for (std::size_t first = 0; first < rows; first += block_rows) {
-        const std::size_t count = std::min(rows - first, block_rows);
-        lengths.fill(0);
-        parallel_for(count, piece_rows, [&](std::size_t begin, std::size_t end) {
-            char* out = block.data() + begin * longest_row;
-            lengths[begin / piece_rows] =
-                static_cast<std::size_t>(fill(first + begin, first + end, out) - out);
-        });
-        std::size_t used = 0;
-        for (std::size_t piece = 0; piece < pieces; ++piece) { // closes the gaps, where there are any
-            const std::size_t place = piece * piece_rows * longest_row;
-            if (lengths[piece] > 0 && place != used) {
-                std::memmove(block.data() + used, block.data() + place, lengths[piece]);
-            }
-            used += lengths[piece];
+    std::vector<char> apart; // rows that may reach into the next block
+    for (std::size_t first = 0; first < rows;) {
+        const std::span<char> room = file.room();
+        std::size_t count = std::min(rows - first, room.size() / longest_row);
+        if (count >= std::min(rows - first, least_rows(longest_row))) {
+            file.advance(make_rows(first, count, longest_row, fill, room.data()));
+        } else {
+            count = std::min(rows - first, least_rows(longest_row));
+            apart.resize(count * longest_row);
+            file.write(apart.data(), make_rows(first, count, longest_row, fill, apart.data()));
         }
-        file.write(block.data(), used);
+        first += count;
     }
 }
 

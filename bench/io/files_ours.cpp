@@ -23,6 +23,13 @@ Run writing_msh(const HullSoup& soup) {
     };
 }
 
+Run writing_text(const HullSoup& soup) {
+    return [mesh = mesh_columns(soup)](const std::string& file) {
+        io::write_msh(file, mesh, {io::MshVersion::v4_1, true});
+        return Outcome{};
+    };
+}
+
 Run reading_vtu(const HullSoup& soup) {
     return [soup](const std::string& file) {
         const auto found = std::make_shared<io::Soup>(io::read_vtu(file));
@@ -48,6 +55,7 @@ Run reading_text(const HullSoup& soup) {
 const bool added =
     add_contestant({"write_vtu", "ours", writing_vtu}) && add_contestant({"read_vtu", "ours", reading_vtu}) &&
     add_contestant({"write_msh", "ours", writing_msh}) && add_contestant({"read_msh", "ours", reading_msh}) &&
+    add_contestant({"write_msh_ascii", "ours", writing_text}) &&
     add_contestant({"read_msh_ascii", "ours", reading_text});
 
 } // namespace

@@ -74,6 +74,34 @@ TEST_CASE("A full disk is an OutputError that names the file, and loses nothing"
     CHECK(folder.file_count() == 1);
 }
 
+TEST_CASE("Files of many blocks hold every byte in order, written in pieces of any size", "[io]") {
+    const scratch::Folder folder;
+    std::string bytes(50'000'001, ' ');
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        bytes[i] = static_cast<char>(i * 2654435761U >> 24U);
+    }
+    AtomicFile file{folder / "a.bin"};
+    for (std::size_t at = 0, size = 1; at < bytes.size(); at += size, size = 1 + size * 7 % 3'000'017) {
+        file.write(std::string_view{bytes}.substr(at, size));
+    }
+    file.commit();
+    CHECK((scratch::bytes_of(folder / "a.bin") == bytes));
+}
+
+TEST_CASE("A disk that fills up while blocks are on their way is an OutputError, and loses nothing", "[io]") {
+    const scratch::Folder folder;
+    const auto path = folder / "a.txt";
+    scratch::put(path, "old");
+    for (const rlim_t room : {rlim_t{12} << 20, rlim_t{49} << 20}) {
+        const FullDisk full{room};
+        CHECK_THROWS_AS(io::write_text(path, std::string(50 << 20, 'x')), OutputError);
+        AtomicFile abandoned{path};
+        abandoned.write(std::string(10 << 20, 'x'));
+    }
+    CHECK(scratch::bytes_of(path) == "old");
+    CHECK(folder.file_count() == 1);
+}
+
 TEST_CASE("A missing folder, a folder and a device are refused by name", "[io]") {
     const scratch::Folder folder;
     CHECK_THROWS_WITH(AtomicFile{folder / "none/a.txt"},
