@@ -27,17 +27,10 @@ std::uint32_t digit(char c) {
 
 } // namespace
 
-std::optional<Array<char>> decode_base64(std::string_view text, std::size_t size) {
-    if (size > text.size()) {
-        return std::nullopt;
-    }
-    Array<char> bytes;
-    bytes.reserve(size + 2);
-    for (std::size_t i = 0; bytes.size() < size; i += 4) {
-        if (i + 4 > text.size()) {
-            return std::nullopt;
-        }
-        const std::string_view quad = text.substr(i, 4);
+std::optional<std::size_t> decode_base64(std::string_view text, std::size_t size, Array<char>& bytes) {
+    std::size_t taken = 0;
+    for (; bytes.size() < size && taken + 4 <= text.size(); taken += 4) {
+        const std::string_view quad = text.substr(taken, 4);
         const int padding = quad[3] != '=' ? 0 : quad[2] != '=' ? 1 : 2;
         std::uint32_t bits = 0;
         for (int k = 0; k < 4; ++k) {
@@ -51,8 +44,7 @@ std::optional<Array<char>> decode_base64(std::string_view text, std::size_t size
             bytes.push_back(static_cast<char>(bits >> (16 - 8 * k) & 0xFF));
         }
     }
-    bytes.resize(size);
-    return bytes;
+    return taken;
 }
 
 } // namespace slabhull::io

@@ -3,13 +3,15 @@
 
 #include "slabhull/core/array.h"
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
 namespace slabhull::io {
 
-/// The first `size` bytes that base64 text stands for. Parts that were encoded one by one, each with its
-/// padding, are read on through. Nothing if the text is too short or no base64.
-std::optional<Array<char>> decode_base64(std::string_view text, std::size_t size);
+/// Appends the bytes that base64 text stands for, groups of four characters at a time, until there are at
+/// least `size` or no four are left. Parts that were encoded one by one, each with its padding, are read on
+/// through. Returns how many characters it took; nothing if they are no base64.
+std::optional<std::size_t> decode_base64(std::string_view text, std::size_t size, Array<char>& bytes);
 
 } // namespace slabhull::io

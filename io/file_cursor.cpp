@@ -70,7 +70,12 @@ std::string lower_extension(const std::filesystem::path& path) {
 }
 
 std::string_view FileCursor::line() {
-    const std::size_t end = std::min(bytes_.find('\n', offset_), bytes_.size());
+    std::size_t end = bytes_.substr(0, loaded_end_).find('\n', offset_);
+    for (std::size_t before = loaded_end_; end == std::string_view::npos && load_more(offset_);
+         before = loaded_end_) {
+        end = bytes_.substr(0, loaded_end_).find('\n', before);
+    }
+    end = std::min(end, bytes_.size());
     std::string_view text = bytes_.substr(offset_, end - offset_);
     offset_ = std::min(end + 1, bytes_.size());
     if (!text.empty() && text.back() == '\r') {
@@ -82,10 +87,27 @@ std::string_view FileCursor::line() {
 std::string_view FileCursor::word() {
     skip_blanks();
     const std::size_t begin = offset_;
-    while (offset_ < bytes_.size() && !is_blank(bytes_[offset_])) {
-        ++offset_;
-    }
+    do {
+        while (offset_ < loaded_end_ && !is_blank(bytes_[offset_])) {
+            ++offset_;
+        }
+    } while (offset_ == loaded_end_ && load_more(begin));
     return bytes_.substr(begin, offset_ - begin);
+}
+
+bool FileCursor::seek_text(std::string_view text) {
+    while (true) {
+        const std::size_t found = bytes_.substr(0, loaded_end_).find(text, offset_);
+        if (found != std::string_view::npos) {
+            offset_ = found;
+            return true;
+        }
+        // it may stand half in what is there
+        offset_ = std::max(offset_, loaded_end_ - std::min(loaded_end_, text.size()));
+        if (!load_more(offset_)) {
+            return false;
+        }
+    }
 }
 
 std::string FileCursor::quoted() {
@@ -111,8 +133,9 @@ void FileCursor::fail_at(std::size_t offset, const std::string& text) const {
         throw InputError(fmt::format("{}: byte {}: {}", path_, offset, text),
                          {Entity{"byte", static_cast<std::int64_t>(offset), {}}});
     }
-    const std::size_t end = std::min(offset, bytes_.size());
-    const auto line = 1 + std::count(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    const auto end = static_cast<std::ptrdiff_t>(std::min(offset, bytes_.size()));
+    const auto line = 1 + (file_ != nullptr ? static_cast<std::ptrdiff_t>(file_->count_lines(offset))
+                                            : std::count(bytes_.begin(), bytes_.begin() + end, '\n'));
     throw InputError(fmt::format("{}: line {}: {}", path_, line, text), {Entity{"line", line, {}}});
 }
 

@@ -33,6 +33,10 @@ void write_plain_medit(AtomicFile& file, const MeshColumns& mesh) {
     write_medit(file, mesh);
 }
 
+void write_pvtu_pieces(const std::filesystem::path& path, const MeshColumns& mesh, std::size_t pieces) {
+    write_pvtu(path, mesh, pieces);
+}
+
 constexpr Holds vtu_holds{.point_data = true, .cell_data = true, .field_data = true};
 constexpr Holds msh_holds{.lower_simplices = true,
                           .groups = true,
@@ -49,6 +53,7 @@ const std::vector<Format>& table() {
     static const std::vector<Format> all{
         {"msh", "MSH", {".msh"}, read_msh, write_msh, msh_holds},
         {"vtu", "VTU", {".vtu"}, read_vtu, write_raw_vtu, vtu_holds},
+        {"pvtu", "partitioned VTU", {".pvtu"}, read_pvtu, nullptr, vtu_holds, write_pvtu_pieces},
         {"vtk", "legacy VTK", {".vtk"}, read_vtk, write_vtk, vtu_holds},
         {"tetgen", "TetGen", {".node", ".ele", ".face", ".poly", ".smesh"}, read_tetgen, nullptr, {}},
         {"medit", "Medit", {".mesh"}, read_medit, write_plain_medit, numbered_groups},

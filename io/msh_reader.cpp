@@ -20,7 +20,7 @@ constexpr std::size_t least_text = 2; // a digit and a blank
 
 class MshReader {
 public:
-    MshReader(std::string_view bytes, const std::string& path) : in_{bytes, path} { soup_.path = path; }
+    explicit MshReader(FileBytes& file) : in_{file} { soup_.path = file.path().string(); }
 
     Soup read() {
         while (!in_.at_end()) {
@@ -73,9 +73,9 @@ private:
 
     /// Goes to the closing line.
     void skip_section(const std::string& name) {
-        const std::size_t end = in_.rest().find("$End" + name.substr(1));
-        require(end != std::string_view::npos, "section " + name + " does not end");
-        in_.seek(in_.offset() + end);
+        if (!in_.seek_text("$End" + name.substr(1))) {
+            in_.fail("section " + name + " does not end");
+        }
     }
 
     void read_format() {
@@ -318,6 +318,7 @@ private:
         std::array<std::uint64_t, 4> head{}; // blocks, elements, smallest and largest tag
         size_values(head.data(), 4, "the counts of elements");
         const std::size_t blocks = counted(head[0], 16, 4, "blocks of elements");
+        elements_claimed_ = head[1];
         for (std::size_t i = 0; i < blocks; ++i) {
             read_element_block();
         }
@@ -351,9 +352,26 @@ private:
         }
         const PatchNumber physical = physical_of(dimension, entity);
         SimplexBlock& block = soup_.simplices[dimension];
+        reserve_elements(block, dimension);
         block.physical.resize(block.physical.size() + count, physical);
         block.entity.resize(block.entity.size() + count, is_part ? parent->second.number : entity);
         read_rows(block, dimension, count);
+    }
+
+    /// Addresses for all elements that may follow, so that the arrays never move: memory is taken only by those
+    /// that come.
+    void reserve_elements(SimplexBlock& block, std::size_t dimension) const {
+        if (!block.tags.empty()) {
+            return;
+        }
+        const std::size_t corners = dimension + 1;
+        const std::size_t least_row = in_.binary() ? (corners + 1) * 4 : (corners + 1) * least_text - 1;
+        const std::size_t most = std::min(elements_claimed_ - std::min(elements_claimed_, element_count_),
+                                          std::uint64_t{in_.remaining() / least_row});
+        block.vertices.reserve(most * corners);
+        block.tags.reserve(most);
+        block.physical.reserve(most);
+        block.entity.reserve(most);
     }
 
     /// Rows of an element's number and its nodes'.
@@ -400,6 +418,7 @@ private:
     std::uint64_t read_text_elements() {
         const auto claimed = in_.parsed<std::uint64_t>("the count of elements");
         const std::size_t count = counted(claimed, 1, 4, "elements");
+        elements_claimed_ = claimed;
         for (std::size_t i = 0; i < count; ++i) {
             const auto tag = in_.parsed<std::int32_t>("an element's number");
             const auto dimension = simplex_dimension(in_.parsed<int>("an element type"), tag);
@@ -412,6 +431,7 @@ private:
         const auto claimed = in_.parsed<std::uint64_t>("the count of elements");
         in_.line();
         counted(claimed, 8, 1, "elements");
+        elements_claimed_ = claimed;
         while (element_count_ < claimed) {
             std::array<std::int32_t, 3> head{}; // type, elements, tags of each
             in_.numbers(head.data(), head.size(), "a head of elements");
@@ -438,6 +458,7 @@ private:
             }
         }
         SimplexBlock& block = soup_.simplices[dimension];
+        reserve_elements(block, dimension);
         for (std::size_t k = 0; k <= dimension; ++k) {
             block.vertices.push_back(node(in_.number<std::int32_t>("a node's number"), tag));
         }
@@ -518,18 +539,29 @@ private:
     /// Whether every one of the `wanted` got its row.
     bool read_data_rows(std::size_t rows, std::size_t components, const TagIndex& index, std::size_t wanted,
                         Array<double>& values) {
-        std::vector<bool> given(wanted);
+        std::size_t in_order = 0;
+        std::vector<bool> given; // only where rows come in another order: it is as long as the mesh
         std::vector<double> row(components);
         for (std::size_t i = 0; i < rows; ++i) {
             const Index place = index.find(in_.number<std::int32_t>("a number of a node or element"));
             in_.numbers(row.data(), components, "a value");
-            if (place != no_index) { // data may be on elements of a lower dimension, too
-                std::copy(row.begin(), row.end(),
-                          values.begin() + static_cast<std::ptrdiff_t>(place * components));
-                given[place] = true;
+            if (place == no_index) { // data may be on elements of a lower dimension, too
+                continue;
             }
+            std::copy(row.begin(), row.end(),
+                      values.begin() + static_cast<std::ptrdiff_t>(place * components));
+            if (given.empty() && place == in_order) {
+                ++in_order;
+                continue;
+            }
+            if (given.empty()) {
+                given.assign(wanted, false);
+                std::fill_n(given.begin(), in_order, true);
+            }
+            given[place] = true;
         }
-        return std::all_of(given.begin(), given.end(), [](bool one) { return one; });
+        return given.empty() ? in_order == wanted
+                             : std::all_of(given.begin(), given.end(), [](bool one) { return one; });
     }
 
     const SimplexBlock& top_block() const {
@@ -555,6 +587,7 @@ private:
     int size_width_ = 8; ///< bytes of a size_t of MSH 4.1
     bool nodes_read_ = false;
     bool elements_read_ = false;
+    std::uint64_t elements_claimed_ = 0;
     std::uint64_t element_count_ = 0;
     TagIndex nodes_;
     std::unique_ptr<TagIndex> element_of_; ///< of the top dimension, made when data ask for it
@@ -566,8 +599,8 @@ private:
 } // namespace
 
 Soup read_msh(const std::filesystem::path& path) {
-    const Array<char> bytes = read_bytes(path);
-    return MshReader{{bytes.data(), bytes.size()}, path.string()}.read();
+    FileBytes file{path};
+    return MshReader{file}.read();
 }
 
 } // namespace slabhull::io

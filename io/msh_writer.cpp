@@ -96,6 +96,8 @@ public:
     }
 
     void write() {
+        require_rows("NodeData", mesh_.point_data);
+        require_rows("ElementData", mesh_.cell_data);
         write_format();
         write_physical_names();
         write_entities();
@@ -242,13 +244,20 @@ private:
                     });
     }
 
+    /// Before anything is written, as what cannot be must not take an hour to say.
+    static void require_rows(const char* section, const std::vector<DataColumn>& columns) {
+        for (const DataColumn& data : columns) {
+            const std::size_t rows = rows_of(data);
+            if (rows > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+                throw LimitError(
+                    fmt::format("\"{}\" has {} rows, but ${} in an MSH file counts in 32 bits; write VTU",
+                                data.name, rows, section));
+            }
+        }
+    }
+
     void write_data(const char* section, const DataColumn& data) {
         const std::size_t rows = rows_of(data);
-        if (rows > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-            throw LimitError(
-                fmt::format("\"{}\" has {} rows, but ${} in an MSH file counts in 32 bits; write VTU",
-                            data.name, rows, section));
-        }
         const int components = components_of(data);
         for (int k = 0; k < components; ++k) {
             const std::string name = components > 1 ? fmt::format("{}_{}", data.name, k) : data.name;

@@ -11,21 +11,55 @@ namespace slabhull::io {
 
 namespace {
 
-/// The first bytes of `data`: in place, or decoded to `own`.
-std::string_view first_bytes(std::string_view data, bool is_base64, std::uint64_t size, Array<char>& own) {
-    if (!is_base64) {
-        if (size > data.size()) {
+/// The bytes of a range of a file one after the other, as they are or decoded from base64.
+class ByteStream {
+public:
+    ByteStream(FileBytes& file, FileRange range, bool is_base64)
+        : file_{file}, at_{range.begin}, end_{range.end}, is_base64_{is_base64} {}
+
+    /// No more than so many can follow.
+    std::uint64_t most_left() const {
+        return is_base64_ ? (end_ - at_) / 4 * 3 + (decoded_.size() - given_) : end_ - at_;
+    }
+    std::size_t at() const { return at_; }
+
+    /// The next ones, there until the next call.
+    std::string_view next(std::uint64_t size) {
+        if (size > most_left()) {
             throw PayloadError{"its data reach beyond the end of the file"};
         }
-        return data.substr(0, size);
+        return is_base64_ ? decoded(size) : plain(size);
     }
-    auto decoded = decode_base64(data, size);
-    if (!decoded) {
-        throw PayloadError{"its base64 data are cut short or damaged"};
+
+private:
+    std::string_view plain(std::size_t size) {
+        file_.load(at_, at_ + size);
+        at_ += size;
+        return file_.view().substr(at_ - size, size);
     }
-    own = std::move(*decoded);
-    return {own.data(), own.size()};
-}
+
+    std::string_view decoded(std::size_t size) {
+        decoded_.erase(decoded_.begin(), decoded_.begin() + static_cast<std::ptrdiff_t>(given_));
+        given_ = size;
+        while (decoded_.size() < size) {
+            file_.load(at_, at_ + 4);
+            const std::size_t there = std::min(end_, file_.loaded_end()) - at_;
+            const auto taken = decode_base64(file_.view().substr(at_, there), size, decoded_);
+            if (taken.value_or(0) == 0) {
+                throw PayloadError{"its base64 data are cut short or damaged"};
+            }
+            at_ += *taken;
+        }
+        return {decoded_.data(), size};
+    }
+
+    FileBytes& file_;
+    std::size_t at_;
+    std::size_t end_;
+    bool is_base64_;
+    Array<char> decoded_;
+    std::size_t given_ = 0; ///< of those
+};
 
 /// What stands in front of packed blocks: all are of `block_bytes`, but for the last one.
 struct BlockHead {
@@ -39,72 +73,56 @@ struct BlockHead {
 
 class PayloadReader {
 public:
-    PayloadReader(const PayloadFormat& format, std::string_view data, bool is_base64, std::uint64_t most)
-        : format_{format}, data_{data}, is_base64_{is_base64}, most_{most} {}
+    PayloadReader(const PayloadFormat& format, ByteStream& in, std::uint64_t most, const PayloadTaker& taker)
+        : format_{format}, in_{in}, most_{most}, taker_{taker} {}
 
-    Payload read() const { return format_.compressor == Compressor::none ? plain() : packed(); }
+    void read() { format_.compressor == Compressor::none ? plain() : packed(); }
 
 private:
-    /// The first bytes of the file's data stand in `own` or in the file.
-    std::string_view first(std::uint64_t size, Array<char>& own) const {
-        return first_bytes(data_, is_base64_, size, own);
-    }
-
     std::uint64_t word(std::string_view head, std::uint64_t i) const {
         const char* place = head.data() + i * format_.word_bytes;
         return format_.word_bytes == sizeof(std::uint64_t) ? load<std::uint64_t>(place, format_.swapped)
                                                            : load<std::uint32_t>(place, format_.swapped);
     }
 
-    /// Bytes of the file that so many bytes take, to the letter but for padding.
-    std::uint64_t in_file(std::uint64_t size) const { return is_base64_ ? size / 3 * 4 : size; }
-
-    Payload plain() const {
-        Payload payload;
-        const std::size_t head = format_.word_bytes;
-        const std::uint64_t size = word(first(head, payload.own), 0);
-        if (size > data_.size() - std::min(data_.size(), head)) {
+    void plain() {
+        constexpr std::uint64_t portion = std::uint64_t{1} << 20;
+        const std::uint64_t size = word(in_.next(format_.word_bytes), 0);
+        if (size > in_.most_left()) {
             throw PayloadError{"its data reach beyond the end of the file"};
         }
-        payload.bytes = first(head + size, payload.own).substr(head);
-        payload.consumed = in_file(head + size);
-        return payload;
+        taker_.start(size);
+        for (std::uint64_t done = 0; done < size; done += portion) {
+            taker_.take(in_.next(std::min(portion, size - done)));
+        }
     }
 
     /// Where blocks are packed, the numbers are: blocks, bytes of a block, bytes of the last one, and the
     /// packed size of each.
-    Payload packed() const {
-        constexpr std::uint64_t fixed_words = 3;
-        Array<char> own;
-        Payload payload;
+    void packed() {
         BlockHead head;
-        head.blocks = word(first(format_.word_bytes, own), 0);
-        payload.consumed = in_file(format_.word_bytes);
+        head.blocks = word(in_.next(format_.word_bytes), 0);
         if (head.blocks == 0) {
-            return payload;
+            taker_.start(0);
+            return;
         }
-        const std::string_view fixed = first(fixed_words * format_.word_bytes, own);
-        head.block_bytes = word(fixed, 1);
-        head.last_bytes = word(fixed, 2);
-        if (head.blocks > data_.size() / format_.word_bytes) {
+        const std::string_view sizes = in_.next(2 * format_.word_bytes);
+        head.block_bytes = word(sizes, 0);
+        head.last_bytes = word(sizes, 1);
+        if (head.blocks > in_.most_left() / format_.word_bytes) {
             throw PayloadError{fmt::format("{} packed blocks reach beyond the end of the file", head.blocks)};
         }
-        const std::uint64_t head_bytes = (fixed_words + head.blocks) * format_.word_bytes;
-        const std::uint64_t packed_bytes = packed_size(first(head_bytes, own), head.blocks);
-        const std::uint64_t size = unpacked_size(head, packed_bytes);
-        const std::string_view all = first(head_bytes + packed_bytes, own);
-        payload.own.resize(size);
-        unpack_blocks(head, all, all.substr(head_bytes), payload.own.data());
-        payload.bytes = {payload.own.data(), payload.own.size()};
-        payload.consumed = in_file(head_bytes + packed_bytes);
-        return payload;
+        const std::string_view there = in_.next(head.blocks * format_.word_bytes);
+        const Array<char> words(there.begin(), there.end());
+        taker_.start(unpacked_size(head, packed_size({words.data(), words.size()}, head.blocks)));
+        unpack_blocks(head, {words.data(), words.size()});
     }
 
     std::uint64_t packed_size(std::string_view head, std::uint64_t blocks) const {
         std::uint64_t sum = 0;
         for (std::uint64_t block = 0; block < blocks; ++block) {
-            const std::uint64_t size = word(head, 3 + block);
-            if (size > data_.size() - sum) {
+            const std::uint64_t size = word(head, block);
+            if (size > in_.most_left() - sum) {
                 throw PayloadError{"its packed data reach beyond the end of the file"};
             }
             sum += size;
@@ -124,29 +142,36 @@ private:
         return size + head.last_bytes;
     }
 
-    void unpack_blocks(const BlockHead& head, std::string_view words, std::string_view source,
-                       char* out) const {
+    /// Portions are multiples of 8 bytes, whatever the blocks are.
+    void unpack_blocks(const BlockHead& head, std::string_view words) {
+        Array<char> portion;
+        std::size_t left = 0; // of the block before
         for (std::uint64_t block = 0; block < head.blocks; ++block) {
-            const std::uint64_t size = word(words, 3 + block);
             const std::uint64_t unpacked = head.bytes_of(block);
-            if (!unpack(format_.compressor, source.substr(0, size), out, unpacked)) {
+            portion.resize(left + unpacked);
+            if (!unpack(format_.compressor, in_.next(word(words, block)), portion.data() + left, unpacked)) {
                 throw PayloadError{fmt::format("its packed block {} is damaged", block)};
             }
-            out += unpacked;
-            source.remove_prefix(size);
+            left = block + 1 < head.blocks ? portion.size() % 8 : 0;
+            const std::size_t whole = portion.size() - left;
+            taker_.take({portion.data(), whole});
+            std::copy_n(portion.begin() + static_cast<std::ptrdiff_t>(whole), left, portion.begin());
         }
     }
 
     PayloadFormat format_;
-    std::string_view data_;
-    bool is_base64_;
+    ByteStream& in_;
     std::uint64_t most_;
+    const PayloadTaker& taker_;
 };
 
 } // namespace
 
-Payload read_payload(const PayloadFormat& format, std::string_view data, bool is_base64, std::uint64_t most) {
-    return PayloadReader{format, data, is_base64, most}.read();
+std::uint64_t read_payload(const PayloadFormat& format, FileBytes& file, FileRange range, bool is_base64,
+                           std::uint64_t most, const PayloadTaker& taker) {
+    ByteStream in{file, range, is_base64};
+    PayloadReader{format, in, most, taker}.read();
+    return in.at() - range.begin;
 }
 
 } // namespace slabhull::io

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "compression.h"
-#include "slabhull/core/array.h"
+#include "file_bytes.h"
+#include "vtu_skeleton.h"
 
 #include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <string_view>
 
@@ -17,21 +19,24 @@ struct PayloadFormat {
     Compressor compressor = Compressor::none;
 };
 
-/// The bytes of an array, those of its values.
-struct Payload {
-    std::string_view bytes;
-    Array<char> own;            ///< holds the bytes where they do not stand in the file as they are
-    std::uint64_t consumed = 0; ///< bytes of the file that they were made from
-};
-
 /// Why an array's bytes cannot be had.
 struct PayloadError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The array whose numbers and bytes stand at the beginning of `data`, raw or in base64. Unpacks no more
-/// than `most` bytes, nor more than the compressor could have packed into `data`, and allocates only then.
-/// Throws PayloadError.
-Payload read_payload(const PayloadFormat& format, std::string_view data, bool is_base64, std::uint64_t most);
+/// Who gets an array's bytes.
+struct PayloadTaker {
+    /// Once, before all others: how many bytes there will be.
+    std::function<void(std::uint64_t bytes)> start;
+    /// The next ones; a multiple of 8 but for the last ones.
+    std::function<void(std::string_view bytes)> take;
+};
+
+/// Gives the array whose numbers and bytes stand at the beginning of `range`, raw or in base64, in portions of
+/// a megabyte or of a packed block. Unpacks no more than `most` bytes, nor more than the compressor could have
+/// packed into the range, and starts only then. Returns how many bytes of the file it took. Throws
+/// PayloadError.
+std::uint64_t read_payload(const PayloadFormat& format, FileBytes& file, FileRange range, bool is_base64,
+                           std::uint64_t most, const PayloadTaker& taker);
 
 } // namespace slabhull::io

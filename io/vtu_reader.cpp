@@ -6,11 +6,14 @@
 #include "file_cursor.h"
 #include "vtk_names.h"
 #include "vtu_payload.h"
+#include "vtu_pieces.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <fmt/format.h>
+#include <iterator>
 #include <optional>
 #include <pugixml.hpp>
 
@@ -18,32 +21,11 @@ namespace slabhull::io {
 
 namespace {
 
-/// The appended section, which is no XML and which the XML parser never sees.
-struct Appended {
-    std::size_t begin = std::string_view::npos; ///< of the tag, in the file
-    std::string_view data;                      ///< what follows the underscore
-    bool is_base64 = false;
-};
-
-Appended find_appended(std::string_view bytes) {
-    Appended appended;
-    appended.begin = bytes.find("<AppendedData");
-    if (appended.begin == std::string_view::npos) {
-        return appended;
-    }
-    const std::size_t tag_end = std::min(bytes.find('>', appended.begin), bytes.size());
-    const std::string_view tag = bytes.substr(appended.begin, tag_end - appended.begin);
-    appended.is_base64 = tag.find("base64") != std::string_view::npos;
-    const std::size_t mark = bytes.find('_', tag_end);
-    appended.data = mark == std::string_view::npos ? std::string_view{} : bytes.substr(mark + 1);
-    return appended;
-}
-
 /// An array's values as they stand in the file: bytes, or text.
 struct Stored {
-    std::string_view text;
-    Payload payload;
+    FileRange range;
     bool is_text = false;
+    bool is_base64 = false;
 };
 
 constexpr std::uint64_t any_count = std::numeric_limits<std::uint64_t>::max();
@@ -55,21 +37,19 @@ std::uint64_t times(std::uint64_t a, std::uint64_t b) {
 
 class VtuReader {
 public:
-    VtuReader(std::string_view bytes, const std::string& path)
-        : bytes_{bytes}, appended_{find_appended(bytes)} {
-        soup_.path = path;
-    }
+    explicit VtuReader(FileBytes& file) : file_{file}, skeleton_{file} { soup_.path = file.path().string(); }
 
-    Soup read() {
+    Soup read(bool may_be_empty) {
         parse_xml();
         const pugi::xml_node grid = open_grid();
         for (const pugi::xml_node node : grid.child("FieldData").children()) {
-            soup_.field_data.push_back(data_array(node, std::nullopt));
+            soup_.field_data.push_back(field_array(node));
         }
+        count_all(grid);
         for (const pugi::xml_node piece : grid.children("Piece")) {
             read_piece(piece);
         }
-        if (dimension_ == 0) {
+        if (dimension_ == 0 && !(may_be_empty && soup_.points.empty())) {
             fail(grid, "there are no cells");
         }
         return std::move(soup_);
@@ -82,22 +62,18 @@ private:
     [[noreturn]] void fail(const pugi::xml_node& node, const std::string& text) const {
         const std::string name = node.attribute("Name").value();
         const std::string what = name.empty() ? node.name() : "array \"" + name + "\"";
-        fail_at(node.offset_debug(), fmt::format("{}: {}", what, text));
+        fail_at(skeleton_.in_file(node.offset_debug()), fmt::format("{}: {}", what, text));
     }
 
     // --- XML ---
 
     void parse_xml() {
-        std::string head;
-        std::string_view xml = bytes_;
-        if (appended_.begin != std::string_view::npos) {
-            head = std::string{bytes_.substr(0, appended_.begin)} + "</VTKFile>";
-            xml = head;
-        }
-        const pugi::xml_parse_result result =
-            document_.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
+        std::string& xml = skeleton_.xml();
+        const pugi::xml_parse_result result = document_.load_buffer_inplace(
+            xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
         if (!result) {
-            fail_at(result.offset, fmt::format("this is no VTU file: {}", result.description()));
+            fail_at(skeleton_.in_file(result.offset),
+                    fmt::format("this is no VTU file: {}", result.description()));
         }
     }
 
@@ -148,96 +124,139 @@ private:
 
     // --- arrays ---
 
-    /// `most` bytes where it is packed.
-    Stored stored(const pugi::xml_node& node, std::uint64_t most) {
+    Stored stored(const pugi::xml_node& node) const {
         const std::string_view format = node.attribute("format").as_string("ascii");
-        if (format == "ascii") {
-            return {node.text().get(), {}, true};
-        }
-        if (format == "binary") {
-            std::string_view text = node.text().get();
-            text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-            return {{}, payload(node, text, true, most), false};
+        if (format == "ascii" || format == "binary") {
+            return {skeleton_.text(node.text().data().offset_debug()), format == "ascii", true};
         }
         if (format != "appended") {
             fail(node, fmt::format("the format \"{}\" is not known", format));
         }
+        FileRange range = skeleton_.appended();
         const std::uint64_t offset = count_attribute(node, "offset");
-        if (offset > appended_.data.size()) {
+        if (offset > range.end - range.begin) {
             fail(node, fmt::format("offset {} lies beyond the end of the file", offset));
         }
-        return {{}, payload(node, appended_.data.substr(offset), appended_.is_base64, most), false};
+        range.begin += offset;
+        return {range, false, skeleton_.appended_is_base64()};
     }
 
-    /// Arrays that share bytes could make a small file a large mesh.
-    Payload payload(const pugi::xml_node& node, std::string_view data, bool is_base64, std::uint64_t most) {
-        try {
-            Payload result = read_payload(format_, data, is_base64, most);
-            consumed_ += result.consumed;
-            if (consumed_ > bytes_.size()) {
-                fail(node, "its data overlap those of other arrays");
-            }
-            return result;
-        } catch (const PayloadError& problem) {
-            fail(node, problem.what());
-        }
-    }
-
-    /// All values as T, each by convert(value) from the type in the file. Packed arrays that hold more than
-    /// `count` are refused.
-    template<class T, class Convert>
-    Array<T> values(const pugi::xml_node& node, std::uint64_t count, const Convert& convert) {
-        Array<T> result;
-        const bool known = with_vtk_type(node.attribute("type").value(), [&](auto zero) {
+    /// All values of an array, which is of that type, one after the other: start(n), which throws unless so
+    /// many are wanted, gives their place, and then each(place, i, value) gets them. Packed arrays that hold
+    /// more than `count` are refused; any_count: any number is wanted.
+    template<class Start, class Each>
+    void values(const pugi::xml_node& node, std::string_view type, std::uint64_t count, const Start& start,
+                const Each& each) {
+        const bool known = with_vtk_type(type, [&](auto zero) {
             using S = decltype(zero);
-            const Stored source = stored(node, times(count, sizeof(S)));
+            const Stored source = stored(node);
             if (source.is_text) {
-                parse_text<S>(node, source.text, result, convert);
+                parse_text<S>(node, source.range, count, start, each);
             } else {
-                unpack_values<S>(node, source.payload.bytes, result, convert);
+                unpack_values<S>(node, source, times(count, sizeof(S)), start, each);
             }
         });
         if (!known) {
-            fail(node, fmt::format("the type \"{}\" is not read", node.attribute("type").value()));
-        }
-        return result;
-    }
-
-    template<class S, class T, class Convert>
-    void unpack_values(const pugi::xml_node& node, std::string_view bytes, Array<T>& result,
-                       const Convert& convert) const {
-        if (bytes.size() % sizeof(S) != 0) {
-            fail(node, fmt::format("{} bytes are no whole number of values", bytes.size()));
-        }
-        result.resize(bytes.size() / sizeof(S));
-        for (std::size_t i = 0; i < result.size(); ++i) {
-            result[i] = convert(load<S>(bytes.data() + i * sizeof(S), format_.swapped));
+            fail(node, fmt::format("the type \"{}\" is not read", type));
         }
     }
 
-    template<class S, class T, class Convert>
-    void parse_text(const pugi::xml_node& node, std::string_view text, Array<T>& result,
-                    const Convert& convert) const {
-        FileCursor cursor{text, fmt::format("{}: array \"{}\"", soup_.path, node.attribute("Name").value())};
-        while (!cursor.at_end()) {
-            if constexpr (sizeof(S) == 1) { // a number, not a character
-                const int value = cursor.parsed<int>("a number");
-                if (!std::in_range<S>(value)) {
-                    cursor.fail(fmt::format("{} does not fit its type", value));
-                }
-                result.push_back(convert(static_cast<S>(value)));
-            } else {
-                result.push_back(convert(cursor.parsed<S>("a number")));
+    /// Arrays that share bytes could make a small file a large mesh.
+    template<class S, class Start, class Each>
+    void unpack_values(const pugi::xml_node& node, const Stored& source, std::uint64_t most,
+                       const Start& start, const Each& each) {
+        decltype(start(0)) place{};
+        std::uint64_t done = 0;
+        const auto begin = [&](std::uint64_t bytes) {
+            if (bytes % sizeof(S) != 0) {
+                fail(node, fmt::format("{} bytes are no whole number of values", bytes));
             }
+            place = start(bytes / sizeof(S));
+        };
+        const auto take = [&](std::string_view bytes) {
+            const std::uint64_t count = bytes.size() / sizeof(S);
+            for (std::uint64_t i = 0; i < count; ++i) {
+                each(place, done + i, load<S>(bytes.data() + i * sizeof(S), format_.swapped));
+            }
+            done += count;
+        };
+        try {
+            consumed_ += read_payload(format_, file_, source.range, source.is_base64, most, {begin, take});
+        } catch (const PayloadError& problem) {
+            fail(node, problem.what());
+        }
+        if (consumed_ > file_.size()) {
+            fail(node, "its data overlap those of other arrays");
+        }
+    }
+
+    template<class S, class Start, class Each>
+    void parse_text(const pugi::xml_node& node, FileRange range, std::uint64_t count, const Start& start,
+                    const Each& each) {
+        FileCursor cursor{file_, range.begin, range.end,
+                          fmt::format("{}: array \"{}\"", soup_.path, node.attribute("Name").value())};
+        const bool too_many = count > (range.end - range.begin + 1) / 2;
+        const std::uint64_t wanted = too_many ? words_in(range) : count;
+        const auto place = start(wanted);
+        for (std::uint64_t i = 0; i < wanted; ++i) {
+            if (cursor.at_end()) {
+                start(i);
+            }
+            each(place, i, text_value<S>(cursor));
+        }
+        if (!cursor.at_end()) {
+            start(words_in(range));
+        }
+    }
+
+    template<class S>
+    static S text_value(FileCursor& cursor) {
+        if constexpr (sizeof(S) > 1) {
+            return cursor.parsed<S>("a number");
+        } else { // a number, not a character
+            const int value = cursor.parsed<int>("a number");
+            if (!std::in_range<S>(value)) {
+                cursor.fail(fmt::format("{} does not fit its type", value));
+            }
+            return static_cast<S>(value);
+        }
+    }
+
+    std::uint64_t words_in(FileRange range) {
+        FileCursor cursor{file_, range.begin, range.end, {}};
+        std::uint64_t words = 0;
+        while (!cursor.word().empty()) {
+            ++words;
+        }
+        return words;
+    }
+
+    // --- mesh ---
+
+    /// Addresses for all that the pieces claim, so that the arrays never move: memory is taken only by what
+    /// comes. What would be many times the file must prove itself piece by piece.
+    void count_all(const pugi::xml_node& grid) {
+        for (const pugi::xml_node piece : grid.children("Piece")) {
+            all_points_ += count_attribute(piece, "NumberOfPoints");
+            all_cells_ += count_attribute(piece, "NumberOfCells");
         }
     }
 
     template<class T>
-    Array<T> plain(const pugi::xml_node& node, std::uint64_t count) {
-        return values<T>(node, count, [](auto value) { return static_cast<T>(value); });
+    void reserve(Array<T>& values, std::uint64_t count) const {
+        if (times(count, sizeof(T)) / 4 <= file_.size()) {
+            values.reserve(count);
+        }
     }
 
-    // --- mesh ---
+    /// Room for `more` values behind those that there are; the place of the first.
+    template<class T>
+    T* grow(Array<T>& values, std::uint64_t more, std::uint64_t all) const {
+        reserve(values, all);
+        const std::size_t first = values.size();
+        values.resize(first + more);
+        return values.data() + first;
+    }
 
     /// Behind what the pieces before have given.
     void read_piece(const pugi::xml_node& piece) {
@@ -249,29 +268,31 @@ private:
         first_point_ = soup_.points.size();
         read_points(piece, points);
         read_cells(piece, cells);
-        read_data(soup_.point_data, piece, "PointData", points);
-        read_data(soup_.cell_data, piece, "CellData", cells);
+        read_data(soup_.point_data, piece, "PointData", points, all_points_);
+        read_data(soup_.cell_data, piece, "CellData", cells, all_cells_);
         is_first_piece_ = false;
     }
 
     void read_points(const pugi::xml_node& piece, std::uint64_t count) {
         const pugi::xml_node node = piece.child("Points").child("DataArray");
-        const Array<double> x = plain<double>(node, times(3, count));
-        if (x.size() % 3 != 0 || x.size() / 3 != count) {
-            fail(node, fmt::format("{} values are no {} points of 3 coordinates", x.size(), count));
-        }
-        checked_index(first_point_ + count, "points");
-        const auto bad =
-            std::find_if_not(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
-        if (bad != x.end()) {
-            fail(node,
-                 fmt::format("point {} has a coordinate that is not a finite number", (bad - x.begin()) / 3));
-        }
-        soup_.points.resize(first_point_ + count);
-        if (!x.empty()) {
-            std::memcpy(soup_.points.data() + first_point_, x.data(), x.size() * sizeof(double));
+        std::uint64_t bad = any_count;
+        const auto start = [&](std::uint64_t values) {
+            if (values % 3 != 0 || values / 3 != count) {
+                fail(node, fmt::format("{} values are no {} points of 3 coordinates", values, count));
+            }
+            checked_index(first_point_ + count, "points");
+            return grow(soup_.points, count, all_points_);
+        };
+        values(node, type_of(node), times(3, count), start, [&](Point<3>* x, std::uint64_t i, auto value) {
+            x[i / 3][i % 3] = static_cast<double>(value);
+            bad = std::isfinite(static_cast<double>(value)) ? bad : std::min(bad, i / 3);
+        });
+        if (bad != any_count) {
+            fail(node, fmt::format("point {} has a coordinate that is not a finite number", bad));
         }
     }
+
+    static std::string_view type_of(const pugi::xml_node& node) { return node.attribute("type").value(); }
 
     void read_cells(const pugi::xml_node& piece, std::uint64_t count) {
         const pugi::xml_node section = piece.child("Cells");
@@ -290,21 +311,23 @@ private:
 
     /// The first cell of all decides what the mesh is made of.
     void check_types(const pugi::xml_node& node, std::uint64_t claimed) {
-        const Array<std::int64_t> types = plain<std::int64_t>(node, claimed);
-        if (types.size() != claimed) {
-            fail(node, fmt::format("{} cells are claimed, {} types are there", claimed, types.size()));
-        }
-        checked_index(types.size(), "cells");
-        if (dimension_ == 0 && !types.empty()) {
-            dimension_ = dimension_of(types.front());
-        }
-        const auto other = std::find_if(types.begin(), types.end(), [&](std::int64_t type) {
-            return type != vtk_simplex_type(static_cast<int>(dimension_));
+        const auto start = [&](std::uint64_t types) {
+            if (types != claimed) {
+                fail(node, fmt::format("{} cells are claimed, {} types are there", claimed, types));
+            }
+            checked_index(types, "cells");
+            return nullptr;
+        };
+        values(node, type_of(node), claimed, start, [&](std::nullptr_t, std::uint64_t cell, auto value) {
+            const auto type = static_cast<std::int64_t>(value);
+            if (dimension_ == 0) {
+                dimension_ = dimension_of(type);
+            }
+            if (type != vtk_simplex_type(static_cast<int>(dimension_))) {
+                fail(node, fmt::format("cell {} is a {}; only lines, only triangles or only tetrahedra are read",
+                                       cell, vtk_type_name(static_cast<int>(type & 0xFF))));
+            }
         });
-        if (other != types.end()) {
-            fail(node, fmt::format("cell {} is a {}; only lines, only triangles or only tetrahedra are read",
-                                   other - types.begin(), vtk_type_name(static_cast<int>(*other & 0xFF))));
-        }
     }
 
     /// 1 for what is no simplex, too: it is refused with a name then.
@@ -316,118 +339,126 @@ private:
         return static_cast<std::size_t>(dimension);
     }
 
-    void check_offsets(const pugi::xml_node& node, std::size_t cells, std::size_t corners) {
-        const Array<std::int64_t> offsets = plain<std::int64_t>(node, cells);
-        if (offsets.size() != cells) {
-            fail(node, fmt::format("{} offsets for {} cells", offsets.size(), cells));
-        }
-        for (std::size_t cell = 0; cell < offsets.size(); ++cell) {
-            if (offsets[cell] != static_cast<std::int64_t>((cell + 1) * corners)) {
+    void check_offsets(const pugi::xml_node& node, std::uint64_t cells, std::size_t corners) {
+        const auto start = [&](std::uint64_t offsets) {
+            if (offsets != cells) {
+                fail(node, fmt::format("{} offsets for {} cells", offsets, cells));
+            }
+            return nullptr;
+        };
+        values(node, type_of(node), cells, start, [&](std::nullptr_t, std::uint64_t cell, auto value) {
+            if (static_cast<std::int64_t>(value) != static_cast<std::int64_t>((cell + 1) * corners)) {
                 fail(node, fmt::format("cell {} has not {} vertices", cell, corners));
             }
-        }
-    }
-
-    void read_connectivity(const pugi::xml_node& node, std::size_t count, std::size_t corners) {
-        const std::size_t points = soup_.points.size() - first_point_;
-        Array<Index> vertices = values<Index>(node, count, [points, first = first_point_](auto value) {
-            const bool inside = value >= 0 && static_cast<std::uint64_t>(value) < points;
-            return inside ? static_cast<Index>(first + static_cast<std::uint64_t>(value)) : no_index;
         });
-        if (vertices.size() != count) {
-            fail(node,
-                 fmt::format("{} vertices for {} cells of {}", vertices.size(), count / corners, corners));
-        }
-        const auto bad = std::find(vertices.begin(), vertices.end(), no_index);
-        if (bad != vertices.end()) {
-            fail(node, fmt::format("cell {} names a point that does not exist; there are {}",
-                                   static_cast<std::size_t>(bad - vertices.begin()) / corners, points));
-        }
-        append(soup_.simplices[dimension_].vertices, std::move(vertices));
     }
 
-    template<class Values>
-    static void append(Values& all, Values&& more) {
-        if (all.empty()) {
-            all = std::move(more);
-        } else {
-            all.insert(all.end(), more.begin(), more.end());
-        }
+    void read_connectivity(const pugi::xml_node& node, std::uint64_t count, std::size_t corners) {
+        const std::uint64_t points = soup_.points.size() - first_point_;
+        const auto start = [&](std::uint64_t vertices) {
+            if (vertices != count) {
+                fail(node, fmt::format("{} vertices for {} cells of {}", vertices, count / corners, corners));
+            }
+            return grow(soup_.simplices[dimension_].vertices, count, times(all_cells_, corners));
+        };
+        values(node, type_of(node), count, start, [&](Index* vertices, std::uint64_t i, auto value) {
+            if (value < 0 || static_cast<std::uint64_t>(value) >= points) {
+                fail(node, fmt::format("cell {} names a point that does not exist; there are {}", i / corners,
+                                       points));
+            }
+            vertices[i] = static_cast<Index>(first_point_ + static_cast<std::uint64_t>(value));
+        });
     }
 
     // --- data ---
 
     /// Every piece has the same arrays in the same order.
     void read_data(std::vector<DataArray>& arrays, const pugi::xml_node& piece, const char* section,
-                   std::uint64_t rows) {
+                   std::uint64_t rows, std::uint64_t all_rows) {
         std::size_t place = 0;
         for (const pugi::xml_node node : piece.child(section).children("DataArray")) {
-            DataArray array = data_array(node, rows);
+            DataArray array = empty_array(node);
             if (is_first_piece_) {
                 arrays.push_back(std::move(array));
-            } else {
-                join(node, arrays, place++, std::move(array));
+            } else if (place >= arrays.size() || arrays[place].name != array.name ||
+                       arrays[place].components != array.components ||
+                       arrays[place].values.index() != array.values.index()) {
+                fail(node, "the arrays of the pieces differ in name, type, components or order");
             }
+            append_values(node, arrays[place++], rows, all_rows);
         }
-        if (!is_first_piece_ && place != arrays.size()) {
+        if (place != arrays.size()) {
             fail(piece, fmt::format("its array \"{}\" in {} is missing", arrays[place].name, section));
         }
     }
 
-    void join(const pugi::xml_node& node, std::vector<DataArray>& arrays, std::size_t place,
-              DataArray array) const {
-        if (place >= arrays.size() || arrays[place].name != array.name ||
-            arrays[place].components != array.components ||
-            arrays[place].values.index() != array.values.index()) {
-            fail(node, "the arrays of the pieces differ in name, type, components or order");
-        }
-        std::visit(
-            [&](auto& all) {
-                using Values = std::decay_t<decltype(all)>;
-                append(all, std::get<Values>(std::move(array.values)));
-            },
-            arrays[place].values);
-    }
-
-    /// Of any number of rows where none is given.
-    DataArray data_array(const pugi::xml_node& node, std::optional<std::uint64_t> rows) {
-        const std::string_view type = node.attribute("type").value();
+    /// What an array is, without its values.
+    DataArray empty_array(const pugi::xml_node& node) const {
         DataArray array;
         array.name = node.attribute("Name").value();
         array.components = node.attribute("NumberOfComponents").as_int(1);
         if (array.components < 1) {
             fail(node, fmt::format("{} is no number of components", array.components));
         }
-        const auto width = static_cast<std::uint64_t>(array.components);
-        const std::uint64_t tuples = rows ? *rows
-                                     : node.attribute("NumberOfTuples")
-                                         ? count_attribute(node, "NumberOfTuples")
-                                         : any_count;
-        if (type == "String") {
-            array.values = texts(node, any_count);
-        } else if (node.attribute(text_mark)) {
-            array.values = texts(node, rows ? any_count : tuples);
-        } else if (type.starts_with("Float")) {
-            array.values = plain<double>(node, times(tuples, width));
+        if (is_text(node)) {
+            array.values = std::vector<std::string>{};
+        } else if (type_of(node).starts_with("Float")) {
+            array.values = Array<double>{};
         } else {
-            array.values = plain<std::int64_t>(node, times(tuples, width));
-        }
-        const std::size_t size = std::visit([](const auto& values) { return values.size(); }, array.values);
-        if (size % width != 0 || (rows && size / width != *rows)) {
-            fail(node, fmt::format("{} values are no {} rows of {}", size, rows.value_or(0), width));
+            array.values = Array<std::int64_t>{};
         }
         return array;
     }
 
-    std::vector<std::string> texts(const pugi::xml_node& node, std::uint64_t most) {
-        const Stored source = stored(node, most);
-        std::string characters{source.payload.bytes};
-        if (source.is_text) {
-            Array<char> codes;
-            parse_text<std::uint8_t>(node, source.text, codes,
-                                     [](auto code) { return static_cast<char>(code); });
-            characters.assign(codes.begin(), codes.end());
+    static bool is_text(const pugi::xml_node& node) {
+        return type_of(node) == "String" || node.attribute(text_mark);
+    }
+
+    DataArray field_array(const pugi::xml_node& node) {
+        DataArray array = empty_array(node);
+        const std::uint64_t tuples =
+            node.attribute("NumberOfTuples") ? count_attribute(node, "NumberOfTuples") : any_count;
+        append_values(node, array, std::nullopt, tuples);
+        return array;
+    }
+
+    /// As many rows as given, or any number up to `all_rows`.
+    void append_values(const pugi::xml_node& node, DataArray& array, std::optional<std::uint64_t> rows,
+                       std::uint64_t all_rows) {
+        const auto width = static_cast<std::uint64_t>(array.components);
+        const auto require_rows = [&](std::uint64_t size) {
+            if (size % width != 0 || (rows && size / width != *rows)) {
+                fail(node, fmt::format("{} values are no {} rows of {}", size, rows.value_or(0), width));
+            }
+        };
+        const auto append = [&]<class T>(Array<T>& all) {
+            const auto start = [&](std::uint64_t more) {
+                require_rows(more);
+                return grow(all, more, rows ? times(all_rows, width) : more);
+            };
+            values(node, type_of(node), times(rows.value_or(all_rows), width), start,
+                   [](T* place, std::uint64_t i, auto value) { place[i] = static_cast<T>(value); });
+        };
+        if (auto* strings = std::get_if<std::vector<std::string>>(&array.values)) {
+            std::vector<std::string> more = texts(node, rows ? any_count : all_rows);
+            require_rows(more.size());
+            std::move(more.begin(), more.end(), std::back_inserter(*strings));
+        } else if (auto* reals = std::get_if<Array<double>>(&array.values)) {
+            append(*reals);
+        } else {
+            append(std::get<Array<std::int64_t>>(array.values));
         }
+    }
+
+    std::vector<std::string> texts(const pugi::xml_node& node, std::uint64_t most) {
+        std::string characters;
+        const auto start = [&](std::uint64_t bytes) {
+            characters.resize(bytes);
+            return characters.data();
+        };
+        const bool of_vtk = type_of(node) == "String";
+        values(node, vtk_name<std::uint8_t>(), of_vtk ? any_count : most, start,
+               [](char* place, std::uint64_t i, auto code) { place[i] = static_cast<char>(code); });
         std::vector<std::string> result;
         for (std::size_t begin = 0; begin < characters.size();) {
             const std::size_t end = std::min(characters.find('\0', begin), characters.size());
@@ -437,13 +468,15 @@ private:
         return result;
     }
 
-    std::string_view bytes_;
-    Appended appended_;
+    FileBytes& file_;
+    VtuSkeleton skeleton_;
     pugi::xml_document document_;
     PayloadFormat format_;
     std::uint64_t consumed_ = 0;  ///< bytes of the file that made arrays
     std::size_t dimension_ = 0;   ///< 0 until there was a cell
     std::size_t first_point_ = 0; ///< of the piece
+    std::uint64_t all_points_ = 0; ///< that the pieces claim
+    std::uint64_t all_cells_ = 0;
     bool is_first_piece_ = true;
     Soup soup_;
 };
@@ -451,8 +484,30 @@ private:
 } // namespace
 
 Soup read_vtu(const std::filesystem::path& path) {
+    FileBytes file{path};
+    return VtuReader{file}.read(false);
+}
+
+Soup read_vtu_piece(const std::filesystem::path& path) {
+    FileBytes file{path};
+    return VtuReader{file}.read(true);
+}
+
+std::vector<std::string> pvtu_sources(const std::filesystem::path& path) {
     const Array<char> bytes = read_bytes(path);
-    return VtuReader{{bytes.data(), bytes.size()}, path.string()}.read();
+    pugi::xml_document document;
+    const pugi::xml_parse_result result =
+        document.load_buffer(bytes.data(), bytes.size(), pugi::parse_default, pugi::encoding_utf8);
+    const pugi::xml_node grid = document.child("VTKFile").child("PUnstructuredGrid");
+    if (!result || !grid) {
+        throw InputError(fmt::format("{}: byte {}: this is no PVTU file{}{}", path.string(), result.offset,
+                                     result ? "" : ": ", result ? "" : result.description()));
+    }
+    std::vector<std::string> sources;
+    for (const pugi::xml_node piece : grid.children("Piece")) {
+        sources.emplace_back(piece.attribute("Source").value());
+    }
+    return sources;
 }
 
 } // namespace slabhull::io

@@ -3,6 +3,7 @@
 
 #include "column_stream.h"
 #include "compression.h"
+#include "mesh_pieces.h"
 #include "spool.h"
 #include "vtk_names.h"
 #include "xml_text.h"
@@ -152,7 +153,7 @@ bool leads_meshio_astray(const std::vector<ArraySize>& sizes) {
 }
 
 void add_data(VtuLayout& layout, const std::string& section, const std::vector<DataColumn>& columns) {
-    layout.open(section);
+    layout.open(section + global_ids_attribute(columns));
     for (const DataColumn& column : columns) {
         layout.add(stored(column));
     }

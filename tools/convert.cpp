@@ -26,6 +26,7 @@ struct ConvertCommand {
     std::optional<double> weld;
     std::optional<double> scale;
     std::string renumber;
+    std::optional<std::size_t> pieces;
     bool boundary = false;
     bool reverse = false;
 };
@@ -38,6 +39,9 @@ void require_sense(const ConvertCommand& command) {
     }
     if (command.scale && !(*command.scale > 0 && std::isfinite(*command.scale))) {
         throw UsageError{fmt::format("--scale: expected a positive factor, not {}", *command.scale)};
+    }
+    if (command.pieces == std::size_t{0}) {
+        throw UsageError{"--pieces: expected a number of at least 1, not 0"};
     }
 }
 
@@ -111,9 +115,20 @@ io::MeshColumns columns_to_write(const io::Soup& soup) {
     return mesh;
 }
 
+void write(const ConvertCommand& command, const io::Format& to, const io::MeshColumns& mesh) {
+    if (command.pieces) {
+        to.write_pieces(command.out, mesh, *command.pieces);
+        return;
+    }
+    io::AtomicFile file{command.out};
+    to.write(file, mesh);
+    file.commit();
+}
+
 int convert(const ConvertCommand& command) {
     const io::Format& from = format_to_read(command.in, command.from);
-    const io::Format& to = format_to_write(command.out, command.to);
+    const io::Format& to = command.pieces ? format_to_write_in_pieces(command.out, command.to)
+                                          : format_to_write(command.out, command.to);
     require_sense(command);
     io::Soup soup = from.read(command.in);
     const std::vector<std::string> lost_numbers = io::lost_numbers(soup);
@@ -122,9 +137,7 @@ int convert(const ConvertCommand& command) {
     require_dimension(command, to, soup);
     adapt(command, to, soup, lost_numbers);
     const io::MeshColumns mesh = columns_to_write(soup);
-    io::AtomicFile file{command.out};
-    to.write(file, mesh);
-    file.commit();
+    write(command, to, mesh);
     fmt::print("{}: {} points, {} {}\n", command.out, soup.points.size(), mesh.cells.rows(),
                simplices_called(mesh.dimension));
     return 0;
@@ -150,6 +163,8 @@ void add_convert(CLI::App& program, int& exit_code) {
     app->add_option("--renumber", command->renumber,
                     "Number points and cells along a space-filling curve: curve")
         ->check(CLI::IsMember({"curve"}));
+    app->add_option("--pieces", command->pieces,
+                    "Write so many files, ranges of cells, for parallel readers: .pvtu, .msh");
     app->footer(
         "These are done in the order in which they are listed. What OUT's format cannot hold is told on "
         "stderr.\n" +

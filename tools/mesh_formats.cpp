@@ -47,17 +47,24 @@ const io::Format& format_to_read(const std::string& file, const std::string& nam
 }
 
 const io::Format& format_to_write(const std::string& file, const std::string& name) {
-    return choose(file, name, "--to", "written",
+    return choose(file, name, "--to", "written, or only with --pieces",
                   [](const io::Format& format) { return format.write != nullptr; });
+}
+
+const io::Format& format_to_write_in_pieces(const std::string& file, const std::string& name) {
+    return choose(file, name, "--to", "written in pieces",
+                  [](const io::Format& format) { return format.write_pieces != nullptr; });
 }
 
 std::string formats_help() {
     std::string text = "Formats:\n";
     for (const io::Format& format : io::formats()) {
+        const char* written = format.write != nullptr          ? "written"
+                              : format.write_pieces != nullptr ? "written with --pieces"
+                                                               : "";
         text += fmt::format("  {:<8} {} ({}{}{})\n", format.name, fmt::join(format.extensions, " "),
                             format.read != nullptr ? "read" : "",
-                            format.read != nullptr && format.write != nullptr ? ", " : "",
-                            format.write != nullptr ? "written" : "");
+                            format.read != nullptr && *written != '\0' ? ", " : "", written);
     }
     return text;
 }

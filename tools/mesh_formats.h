@@ -11,6 +11,7 @@ namespace slabhull::tools {
 /// option that would help, when there is none or it is not read (or written), before the file is touched.
 const io::Format& format_to_read(const std::string& file, const std::string& name);
 const io::Format& format_to_write(const std::string& file, const std::string& name);
+const io::Format& format_to_write_in_pieces(const std::string& file, const std::string& name);
 
 /// A line for each format: name, extensions, read or written; for --help.
 std::string formats_help();

@@ -32,6 +32,11 @@ Soup read_msh(const std::filesystem::path& path);
 /// joined one behind the other; points that they share stay apart. Integers become int64, reals double, text
 /// arrays strings.
 Soup read_vtu(const std::filesystem::path& path);
+/// A .pvtu and the .vtu files that it names, joined. Points of the same number in the point array
+/// "GlobalPointIds", where there is one, are one point, and points and cells come in the order of their
+/// numbers; else in that of the files. Copies of other pieces' cells (a second one of the same
+/// "GlobalCellIds", or marked in "vtkGhostType") are left out, and so are these arrays where they only count.
+Soup read_pvtu(const std::filesystem::path& path);
 /// VTK legacy (.vtk), versions 1 to 5.1, ASCII and binary: an unstructured grid of vertices, lines, triangles
 /// and tetrahedra, mixed or not, or POLYDATA of vertices, lines of two points and triangles. Where they are
 /// mixed, each simplex keeps its number in the file as its tag. Arrays as in read_vtu(); colours are passed
@@ -91,6 +96,13 @@ enum class VtuEncoding { raw, zlib, lz4, ascii };
 /// read_vtu() gives them back.
 void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh,
                VtuEncoding encoding = VtuEncoding::raw);
+/// The mesh in pieces for readers that work in parallel: NAME.pvtu names NAME_0.vtu .. beside it, which hold
+/// ranges of cells of nearly equal length, in order, and the points that these use (the last one also those
+/// that none uses). "GlobalPointIds" and "GlobalCellIds" tell the numbers in the whole mesh; all other data
+/// stay as they are. All files are complete before the first appears, the .pvtu last. Throws UsageError
+/// unless each piece gets a cell. Memory: besides that of write_vtu(), three bits per point.
+void write_pvtu(const std::filesystem::path& path, const MeshColumns& mesh, std::size_t pieces,
+                VtuEncoding encoding = VtuEncoding::raw);
 /// MSH 4.1 binary: dense tags from 1, one block of nodes, one of elements per group (groups may share a
 /// number, and then an entity), `$Entities` and `$PhysicalNames`; point data as `$NodeData`, cell data as
 /// `$ElementData` (components > 1 become name_0, name_1 ..). Throws LimitError when data have more rows than

@@ -29,13 +29,16 @@ struct Holds {
 struct Format {
     using Read = Soup (*)(const std::filesystem::path& path);
     using Write = void (*)(AtomicFile& file, const MeshColumns& mesh);
+    using WritePieces = void (*)(const std::filesystem::path& path, const MeshColumns& mesh,
+                                 std::size_t pieces);
 
     std::string_view name;                    ///< as users type it: "msh"
     std::string_view title;                   ///< as messages call it: "MSH"
     std::vector<std::string_view> extensions; ///< in lower case, with the dot
     Read read = nullptr;                      ///< nullptr: not read
     Write write = nullptr;                    ///< nullptr: not written
-    Holds holds;                              ///< where it is written
+    Holds holds = {};                         ///< where it is written
+    WritePieces write_pieces = nullptr;       ///< in pieces, for parallel readers; nullptr: not so
 };
 
 /// All formats, in the order in which extensions are looked up.

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace slabhull::io {
+
+/// Some of the points of a mesh, numbered in ascending order: a bit per point and a count per 512. Reading is
+/// safe from several threads.
+class PointSet {
+public:
+    explicit PointSet(std::size_t points) : points_{points}, words_(words_for(points)) {}
+
+    void insert(std::size_t point) { words_[point / word_bits] |= std::uint64_t{1} << point % word_bits; }
+    /// Also all points that the other does not have.
+    void insert_complement(const PointSet& other);
+    void insert(const PointSet& other);
+    /// To be called after the last insertion and before what follows.
+    void count();
+
+    std::size_t size() const { return size_; }
+    /// The number of a member: how many are smaller.
+    std::size_t rank(std::size_t point) const;
+    /// The member of that number, which must be below size().
+    std::size_t member(std::size_t rank) const;
+    /// The next member after one of them.
+    std::size_t next(std::size_t member) const;
+
+private:
+    static constexpr std::size_t word_bits = 64;
+    static constexpr std::size_t block_words = 8;
+    /// Whole blocks, so that none needs a check of its end.
+    static std::size_t words_for(std::size_t points) {
+        return (points / (word_bits * block_words) + 1) * block_words;
+    }
+
+    std::size_t points_;
+    std::vector<std::uint64_t> words_;
+    std::vector<std::uint64_t> before_; ///< members in front of each block
+    std::size_t size_ = 0;
+};
+
+} // namespace slabhull::io

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/io/soup.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace slabhull::io {
+
+/// Like read_vtu(), but a file without points and cells is an empty soup: parallel writers leave such.
+Soup read_vtu_piece(const std::filesystem::path& path);
+
+/// The files that a .pvtu names, as it names them. Throws InputError.
+std::vector<std::string> pvtu_sources(const std::filesystem::path& path);
+
+} // namespace slabhull::io

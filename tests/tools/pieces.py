@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`slabhull convert --pieces`: what independent readers see of the pieces, what comes back, what is refused."""
+import importlib.util
+import resource
+import subprocess
+import unittest
+
+import harness
+from harness import PROGRAM, ROOT, ProgramTest, slabhull
+
+CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 2\n'
+SPHERE = '[initial]\nexperiment = "expanding-sphere"\nlevel = 1\n'
+ROOM = ROOT / "examples/room.msh"
+HAVE_VTK = all(importlib.util.find_spec(module) for module in ("vtk", "numpy"))
+
+
+class PiecesTest(ProgramTest):
+    def hull(self, text):
+        out, _ = self.build(self.case(text))
+        return out / "slab_0000.vtu"
+
+    def convert(self, source, target, *options):
+        result = slabhull("convert", source, self.dir / target, *options)
+        self.assertEqual(result.code, 0, result.err)
+        return self.dir / target
+
+    def refused(self, code, words, *arguments):
+        result = slabhull("convert", *arguments)
+        self.assertEqual(result.code, code, result.out + result.err)
+        for word in words:
+            self.assertIn(word, result.err)
+
+
+class Pvtu(PiecesTest):
+    def test_a_hull_in_pieces_comes_back_with_the_same_bytes(self):
+        for text in (CIRCLE, SPHERE):
+            hull = self.hull(text)
+            for pieces in (1, 2, 7):
+                whole = self.convert(hull, "whole.pvtu", "--pieces", pieces)
+                self.assertEqual(self.convert(whole, "back.vtu").read_bytes(), hull.read_bytes())
+
+    def test_each_piece_has_its_own_points_and_a_fair_share_of_the_cells(self):
+        hull = self.hull(SPHERE)
+        self.convert(hull, "whole.pvtu", "--pieces", 4)
+        self.assertEqual(sorted(p.name for p in self.dir.glob("whole*")),
+                         ["whole.pvtu", "whole_0.vtu", "whole_1.vtu", "whole_2.vtu", "whole_3.vtu"])
+        sizes = [p.stat().st_size for p in self.dir.glob("whole_*.vtu")]
+        self.assertLess(max(sizes), 0.4 * hull.stat().st_size)
+
+    @unittest.skipUnless(HAVE_VTK, "no VTK here")
+    def test_vtk_reads_the_pieces_and_sees_the_same_mesh(self):
+        import numpy as np
+        import vtk
+        from vtk.util.numpy_support import vtk_to_numpy
+
+        def seen(reader, path):
+            failures = []
+            reader.AddObserver("ErrorEvent", lambda *_: failures.append(path))
+            reader.SetFileName(str(path))
+            reader.Update()
+            self.assertEqual(failures, [])
+            grid = reader.GetOutput()
+            corners = grid.GetCell(0).GetNumberOfPoints()
+            arrays = {}
+            for attributes in (grid.GetPointData(), grid.GetCellData()):
+                for i in range(attributes.GetNumberOfArrays()):
+                    arrays[attributes.GetArrayName(i)] = vtk_to_numpy(attributes.GetArray(i))
+            return (grid, vtk_to_numpy(grid.GetPoints().GetData()),
+                    vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, corners), arrays)
+
+        for text in (CIRCLE, SPHERE):
+            hull = self.hull(text)
+            _, points, cells, arrays = seen(vtk.vtkXMLUnstructuredGridReader(), hull)
+            whole = self.convert(hull, "whole.pvtu", "--pieces", 5)
+            grid, their_points, their_cells, theirs = seen(vtk.vtkXMLPUnstructuredGridReader(), whole)
+            numbers = theirs.pop("GlobalPointIds")
+            self.assertEqual(grid.GetPointData().GetGlobalIds().GetName(), "GlobalPointIds")
+            self.assertEqual(grid.GetCellData().GetGlobalIds().GetName(), "GlobalCellIds")
+            np.testing.assert_array_equal(theirs.pop("GlobalCellIds"), np.arange(len(cells)))
+            np.testing.assert_array_equal(np.unique(numbers), np.arange(len(points)))
+            np.testing.assert_array_equal(their_points, points[numbers])
+            np.testing.assert_array_equal(numbers[their_cells], cells)
+            self.assertEqual(set(theirs), set(arrays))
+            for name, values in arrays.items():
+                expected = values[numbers] if len(values) == len(points) else values
+                np.testing.assert_array_equal(theirs[name], expected, name)
+
+    @unittest.skipUnless(HAVE_VTK, "no VTK here")
+    def test_pieces_that_vtk_wrote_with_ghost_cells_are_joined_to_the_mesh_that_was_cut(self):
+        import vtk
+        hull = self.hull(SPHERE)
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(hull))
+        ids = vtk.vtkIdFilter()
+        ids.SetPointIdsArrayName("GlobalPointIds")
+        ids.SetCellIdsArrayName("GlobalCellIds")
+        ids.SetInputConnection(reader.GetOutputPort())
+        cut = vtk.vtkExtractUnstructuredGridPiece()
+        cut.CreateGhostCellsOn()
+        cut.SetInputConnection(ids.GetOutputPort())
+        writer = vtk.vtkXMLPUnstructuredGridWriter()
+        writer.SetNumberOfPieces(3)
+        writer.SetEndPiece(2)
+        writer.SetGhostLevel(1)
+        writer.SetFileName(str(self.dir / "parts.pvtu"))
+        writer.SetInputConnection(cut.GetOutputPort())
+        self.assertEqual(writer.Write(), 1)
+        self.assertIn("vtkGhostType", (self.dir / "parts.pvtu").read_text())
+        back = self.convert(self.dir / "parts.pvtu", "back.vtu")
+        self.assertEqual(self.check(back)["counts"], self.check(hull)["counts"])
+
+    def test_points_with_the_same_number_in_different_places_are_refused(self):
+        whole = self.convert(self.hull(CIRCLE), "whole.pvtu", "--pieces", 2)
+        moved = self.convert(self.dir / "whole_1.vtu", "moved.vtu", "--scale", 2)
+        moved.replace(self.dir / "whole_1.vtu")
+        self.refused(3, ["whole.pvtu", "GlobalPointIds", "different places"], whole, self.dir / "back.vtu")
+
+    def test_a_missing_piece_and_one_named_twice_are_refused(self):
+        whole = self.convert(self.hull(CIRCLE), "whole.pvtu", "--pieces", 2)
+        (self.dir / "twice.pvtu").write_text(whole.read_text().replace("whole_1", "whole_0"))
+        self.refused(3, ["whole_0.vtu", "twice"], self.dir / "twice.pvtu", self.dir / "back.vtu")
+        (self.dir / "whole_1.vtu").unlink()
+        self.refused(3, ["whole_1.vtu"], whole, self.dir / "back.vtu")
+
+    def test_wrong_numbers_of_pieces_and_formats_are_refused(self):
+        self.refused(2, ["--pieces"], ROOM, self.dir / "room.pvtu")
+        self.refused(2, ["--pieces"], ROOM, self.dir / "room.pvtu", "--pieces", 0)
+        self.refused(2, ["10000000 pieces"], ROOM, self.dir / "room.pvtu", "--pieces", 10000000)
+        self.refused(2, ["not written in pieces"], ROOM, self.dir / "room.avro", "--pieces", 2)
+        self.assertEqual(list(self.dir.iterdir()), [])
+
+    def test_a_disk_that_is_full_midway_leaves_no_piece_and_keeps_what_was_there(self):
+        hull = self.hull(SPHERE)
+        whole = self.convert(hull, "whole.pvtu", "--pieces", 3)
+        before = {p.name: p.read_bytes() for p in self.dir.glob("whole*")}
+        limit = max(len(content) for content in before.values()) // 2
+        done = subprocess.run([PROGRAM, "convert", hull, whole, "--pieces", "2"], capture_output=True, text=True,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertEqual({p.name: p.read_bytes() for p in self.dir.glob("*whole*")}, before)
+
+
+if __name__ == "__main__":
+    harness.main()
