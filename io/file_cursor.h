@@ -24,11 +24,10 @@ Array<char> read_bytes(const std::filesystem::path& path);
 /// ".msh" for "ROOM.MSH".
 std::string lower_extension(const std::filesystem::path& path);
 
-/// A place in a file that holds text, binary values, or both by turns: in the bytes of a whole file or of some
-/// text, or in FileBytes, which it goes through once from front to back; then what it returns by reference
-/// lasts until it goes on, and rest() is not to be asked for. Whatever is asked for
-/// beyond the end, or does not look as it should, ends in an InputError with file and line (text) or byte
-/// (binary).
+/// A place in a file that holds text, binary values, or both by turns: in the bytes of a whole file or of
+/// some text, or in FileBytes, which it goes through once from front to back; then what it returns by
+/// reference lasts until it goes on, and rest() is not to be asked for. Whatever is asked for beyond the end,
+/// or does not look as it should, ends in an InputError with file and line (text) or byte (binary).
 class FileCursor {
 public:
     FileCursor(std::string_view bytes, std::string path)
@@ -45,6 +44,7 @@ public:
     bool binary() const { return binary_; }
     /// Whether binary values are not in the machine's own byte order.
     void set_swapped(bool swapped) { swapped_ = swapped; }
+    bool swapped() const { return swapped_; }
 
     std::size_t offset() const { return offset_; }
     std::size_t remaining() const { return bytes_.size() - offset_; }

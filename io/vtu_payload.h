@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -32,11 +33,16 @@ struct PayloadTaker {
     std::function<void(std::string_view bytes)> take;
 };
 
-/// Gives the array whose numbers and bytes stand at the beginning of `range`, raw or in base64, in portions of
-/// a megabyte or of a packed block. Unpacks no more than `most` bytes, nor more than the compressor could have
-/// packed into the range, and starts only then. Returns how many bytes of the file it took. Throws
+/// Gives the array whose numbers and bytes stand at the beginning of `range`, raw or in base64, in portions
+/// of a megabyte or of a packed block. Unpacks no more than `most` bytes, nor more than the compressor could
+/// have packed into the range, and starts only then. Returns how many bytes of the file it took. Throws
 /// PayloadError.
 std::uint64_t read_payload(const PayloadFormat& format, FileBytes& file, FileRange range, bool is_base64,
                            std::uint64_t most, const PayloadTaker& taker);
+
+/// Where the array's bytes stand in the file when they stand there as they are, neither packed nor in base64.
+/// Throws PayloadError.
+std::optional<FileRange> plain_payload(const PayloadFormat& format, const FileBytes& file, FileRange range,
+                                       bool is_base64);
 
 } // namespace slabhull::io
