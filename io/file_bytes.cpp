@@ -75,10 +75,16 @@ void FileBytes::load(std::size_t begin, std::size_t end) {
     }
     if (end > loaded_end_) {
         const std::size_t last = std::min(size_, std::max(end, loaded_end_ + chunk));
-        if (read(data_ + loaded_end_, loaded_end_, last) != last - loaded_end_) {
-            fail("it has become shorter meanwhile");
-        }
+        copy(loaded_end_, last, data_ + loaded_end_);
         loaded_end_ = last;
+    }
+}
+
+void FileBytes::copy(std::size_t begin, std::size_t end, char* out) const {
+    if (base_ == nullptr) {
+        std::copy(data_ + begin, data_ + end, out);
+    } else if (read(out, begin, end) != end - begin) {
+        fail("it has become shorter meanwhile");
     }
 }
 

@@ -27,6 +27,9 @@ public:
     std::size_t loaded_end() const { return loaded_end_; }
     /// Brings at least [begin, end) of the file, or what of it there is, and lets go of what stands before.
     void load(std::size_t begin, std::size_t end);
+    /// Copies [begin, end) to `out`, whatever is loaded; from several threads, too. Throws where the file has
+    /// become shorter.
+    void copy(std::size_t begin, std::size_t end, char* out) const;
     /// Line ends before that byte; reads the file anew, for messages.
     std::size_t count_lines(std::size_t end) const;
 

@@ -44,6 +44,7 @@ public:
     bool binary() const { return binary_; }
     /// Whether binary values are not in the machine's own byte order.
     void set_swapped(bool swapped) { swapped_ = swapped; }
+    bool swapped() const { return swapped_; }
 
     std::size_t offset() const { return offset_; }
     std::size_t remaining() const { return bytes_.size() - offset_; }

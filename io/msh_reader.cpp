@@ -4,6 +4,7 @@
 
 #include "file_cursor.h"
 #include "gmsh_types.h"
+#include "slabhull/core/parallel.h"
 #include "tag_index.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ constexpr std::size_t least_text = 2; // a digit and a blank
 
 class MshReader {
 public:
-    explicit MshReader(FileBytes& file) : in_{file} { soup_.path = file.path().string(); }
+    explicit MshReader(FileBytes& file) : file_{file}, in_{file} { soup_.path = file.path().string(); }
 
     Soup read() {
         while (!in_.at_end()) {
@@ -376,32 +377,83 @@ private:
 
     /// Rows of an element's number and its nodes'.
     void read_rows(SimplexBlock& block, std::size_t dimension, std::size_t count) {
-        constexpr std::size_t chunk = 512;
         const std::size_t corners = dimension + 1;
-        std::array<std::int64_t, chunk * 5> values; // up to 1 + 4 in a row
-        std::size_t next = block.tags.size();
+        const std::size_t next = block.tags.size();
         checked_index(next + count, "elements");
         block.tags.resize(next + count);
         block.vertices.resize((next + count) * corners);
-        for (std::size_t done = 0; done < count; done += chunk) {
-            const std::size_t rows = std::min(chunk, count - done);
-            size_values(values.data(), rows * (corners + 1), "elements");
-            const std::int64_t* value = values.data();
-            for (std::size_t i = 0; i < rows; ++i, ++next) {
-                const std::int64_t tag = *value++;
-                block.tags[next] = tag;
-                for (std::size_t k = 0; k < corners; ++k) {
-                    block.vertices[next * corners + k] = node(*value++, tag);
-                }
-            }
+        const Rows rows{in_.offset(), corners, block.tags.data() + next,
+                        block.vertices.data() + next * corners};
+        if (in_.binary() && size_width_ == 8) {
+            parallel_for(count, 16 * rows_at_once,
+                         [&](std::size_t begin, std::size_t end) { copy_rows(rows, begin, end); });
+            in_.seek(in_.offset() + count * (corners + 1) * sizeof(std::int64_t));
+        } else {
+            parse_rows(rows, count);
         }
         element_count_ += count;
     }
 
+    static constexpr std::size_t rows_at_once = 512;
+    using RowValues = std::array<std::int64_t, rows_at_once * 5>; // up to 1 + 4 in a row
+
+    /// Where elements stand in the file, and where they go.
+    struct Rows {
+        std::size_t byte;
+        std::size_t corners;
+        std::int64_t* tags;
+        Index* vertices;
+    };
+
+    void parse_rows(const Rows& all, std::size_t count) {
+        RowValues values;
+        for (std::size_t done = 0; done < count; done += rows_at_once) {
+            const std::size_t rows = std::min(rows_at_once, count - done);
+            size_values(values.data(), rows * (all.corners + 1), "elements");
+            take_rows(all, done, rows, values, in_.offset());
+        }
+    }
+
+    /// Rows [begin, end), from the file past the cursor.
+    void copy_rows(const Rows& all, std::size_t begin, std::size_t end) const {
+        const std::size_t row_bytes = (all.corners + 1) * sizeof(std::int64_t);
+        RowValues values;
+        for (std::size_t done = begin; done < end; done += rows_at_once) {
+            const std::size_t rows = std::min(rows_at_once, end - done);
+            const std::size_t byte = all.byte + done * row_bytes;
+            file_.copy(byte, byte + rows * row_bytes, reinterpret_cast<char*>(values.data()));
+            if (in_.swapped()) {
+                std::transform(values.begin(), values.end(), values.begin(), [](const std::int64_t& value) {
+                    return load<std::int64_t>(reinterpret_cast<const char*>(&value), true);
+                });
+            }
+            take_rows(all, done, rows, values, byte);
+        }
+    }
+
+    /// Rows from `first` on, which stand at that byte.
+    void take_rows(const Rows& all, std::size_t first, std::size_t count, const RowValues& values,
+                   std::size_t byte) const {
+        const std::int64_t* value = values.data();
+        Index* vertex = all.vertices + first * all.corners;
+        for (std::size_t i = first; i < first + count; ++i) {
+            const std::int64_t tag = *value++;
+            all.tags[i] = tag;
+            for (std::size_t k = 0; k < all.corners; ++k) {
+                *vertex++ = node(*value++, tag, byte);
+            }
+        }
+    }
+
     Index node(std::int64_t node_tag, std::int64_t element_tag) const {
+        return node(node_tag, element_tag, in_.offset());
+    }
+
+    Index node(std::int64_t node_tag, std::int64_t element_tag, std::size_t byte) const {
         const Index index = nodes_.find(node_tag);
         if (index == no_index) {
-            in_.fail(fmt::format("element {} names node {}, which does not exist", element_tag, node_tag));
+            in_.fail_at(byte,
+                        fmt::format("element {} names node {}, which does not exist", element_tag, node_tag));
         }
         return index;
     }
@@ -581,6 +633,7 @@ private:
         std::int32_t number;
     };
 
+    const FileBytes& file_;
     FileCursor in_;
     Soup soup_;
     Version version_ = Version::unknown;

@@ -5,6 +5,7 @@
 #include "byte_order.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace slabhull::io {
@@ -71,6 +72,11 @@ struct BlockHead {
     }
 };
 
+std::uint64_t word_at(const PayloadFormat& format, const char* place) {
+    return format.word_bytes == sizeof(std::uint64_t) ? load<std::uint64_t>(place, format.swapped)
+                                                      : load<std::uint32_t>(place, format.swapped);
+}
+
 class PayloadReader {
 public:
     PayloadReader(const PayloadFormat& format, ByteStream& in, std::uint64_t most, const PayloadTaker& taker)
@@ -80,9 +86,7 @@ public:
 
 private:
     std::uint64_t word(std::string_view head, std::uint64_t i) const {
-        const char* place = head.data() + i * format_.word_bytes;
-        return format_.word_bytes == sizeof(std::uint64_t) ? load<std::uint64_t>(place, format_.swapped)
-                                                           : load<std::uint32_t>(place, format_.swapped);
+        return word_at(format_, head.data() + i * format_.word_bytes);
     }
 
     void plain() {
@@ -172,6 +176,24 @@ std::uint64_t read_payload(const PayloadFormat& format, FileBytes& file, FileRan
     ByteStream in{file, range, is_base64};
     PayloadReader{format, in, most, taker}.read();
     return in.at() - range.begin;
+}
+
+std::optional<FileRange> plain_payload(const PayloadFormat& format, const FileBytes& file, FileRange range,
+                                       bool is_base64) {
+    const std::size_t there = range.end - range.begin;
+    if (is_base64 || format.compressor != Compressor::none) {
+        return std::nullopt;
+    }
+    std::array<char, sizeof(std::uint64_t)> head{};
+    if (there >= format.word_bytes) {
+        file.copy(range.begin, range.begin + format.word_bytes, head.data());
+    }
+    const std::uint64_t size = word_at(format, head.data());
+    if (there < format.word_bytes || size > there - format.word_bytes) {
+        throw PayloadError{"its data reach beyond the end of the file"};
+    }
+    const std::size_t begin = range.begin + format.word_bytes;
+    return FileRange{begin, begin + size};
 }
 
 } // namespace slabhull::io

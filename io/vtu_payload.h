@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -38,5 +39,10 @@ struct PayloadTaker {
 /// PayloadError.
 std::uint64_t read_payload(const PayloadFormat& format, FileBytes& file, FileRange range, bool is_base64,
                            std::uint64_t most, const PayloadTaker& taker);
+
+/// Where the array's bytes stand in the file when they stand there as they are, neither packed nor in base64.
+/// Throws PayloadError.
+std::optional<FileRange> plain_payload(const PayloadFormat& format, const FileBytes& file, FileRange range,
+                                       bool is_base64);
 
 } // namespace slabhull::io

@@ -4,11 +4,13 @@
 
 #include "byte_order.h"
 #include "file_cursor.h"
+#include "slabhull/core/parallel.h"
 #include "vtk_names.h"
 #include "vtu_payload.h"
 #include "vtu_pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -142,8 +144,9 @@ private:
     }
 
     /// All values of an array, which is of that type, one after the other: start(n), which throws unless so
-    /// many are wanted, gives their place, and then each(place, i, value) gets them. Packed arrays that hold
-    /// more than `count` are refused; any_count: any number is wanted.
+    /// many are wanted, gives their place, and then each(place, i, value) gets them, the first before all
+    /// others, from several threads. Packed arrays that hold more than `count` are refused; any_count: any
+    /// number is wanted.
     template<class Start, class Each>
     void values(const pugi::xml_node& node, std::string_view type, std::uint64_t count, const Start& start,
                 const Each& each) {
@@ -181,12 +184,52 @@ private:
             done += count;
         };
         try {
-            consumed_ += read_payload(format_, file_, source.range, source.is_base64, most, {begin, take});
+            if (const auto plain = plain_payload(format_, file_, source.range, source.is_base64)) {
+                begin(plain->end - plain->begin);
+                copy_values<S>(*plain, [&](std::uint64_t i, S value) { each(place, i, value); });
+                consumed_ += plain->end - source.range.begin;
+            } else {
+                consumed_ +=
+                    read_payload(format_, file_, source.range, source.is_base64, most, {begin, take});
+            }
         } catch (const PayloadError& problem) {
             fail(node, problem.what());
         }
         if (consumed_ > file_.size()) {
             fail(node, "its data overlap those of other arrays");
+        }
+    }
+
+    /// Calls use(i, value) for all values in that range: for the first ones before all others, for these from
+    /// several threads, which take them from the file past its window.
+    template<class S, class Use>
+    void copy_values(FileRange range, const Use& use) const {
+        constexpr std::size_t piece = std::size_t{1} << 17;
+        const std::size_t count = (range.end - range.begin) / sizeof(S);
+        const std::size_t first = std::min(count, piece);
+        copy_values<S>(range.begin, 0, first, use);
+        parallel_for(count - first, piece, [&](std::size_t begin, std::size_t end) {
+            copy_values<S>(range.begin, first + begin, first + end, use);
+        });
+    }
+
+    /// Values [begin, end) of those that stand from that byte on.
+    template<class S, class Use>
+    void copy_values(std::size_t byte, std::size_t begin, std::size_t end, const Use& use) const {
+        constexpr std::size_t chunk = (std::size_t{1} << 15) / sizeof(S); // small enough to stay in the cache
+        std::array<S, chunk> values;
+        for (std::size_t done = begin; done < end; done += chunk) {
+            const std::size_t count = std::min(chunk, end - done);
+            const std::size_t place = byte + done * sizeof(S);
+            file_.copy(place, place + count * sizeof(S), reinterpret_cast<char*>(values.data()));
+            if (format_.swapped) {
+                std::transform(values.begin(), values.begin() + count, values.begin(), [](const S& value) {
+                    return load<S>(reinterpret_cast<const char*>(&value), true);
+                });
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                use(done + i, values[i]);
+            }
         }
     }
 
@@ -275,21 +318,20 @@ private:
 
     void read_points(const pugi::xml_node& piece, std::uint64_t count) {
         const pugi::xml_node node = piece.child("Points").child("DataArray");
-        std::uint64_t bad = any_count;
         const auto start = [&](std::uint64_t values) {
             if (values % 3 != 0 || values / 3 != count) {
                 fail(node, fmt::format("{} values are no {} points of 3 coordinates", values, count));
             }
             checked_index(first_point_ + count, "points");
-            return grow(soup_.points, count, all_points_);
+            Point<3>* const first = grow(soup_.points, count, all_points_);
+            return count > 0 ? first->data() : nullptr;
         };
-        values(node, type_of(node), times(3, count), start, [&](Point<3>* x, std::uint64_t i, auto value) {
-            x[i / 3][i % 3] = static_cast<double>(value);
-            bad = std::isfinite(static_cast<double>(value)) ? bad : std::min(bad, i / 3);
+        values(node, type_of(node), times(3, count), start, [&](double* x, std::uint64_t i, auto value) {
+            x[i] = static_cast<double>(value);
+            if (!std::isfinite(x[i])) {
+                fail(node, fmt::format("point {} has a coordinate that is not a finite number", i / 3));
+            }
         });
-        if (bad != any_count) {
-            fail(node, fmt::format("point {} has a coordinate that is not a finite number", bad));
-        }
     }
 
     static std::string_view type_of(const pugi::xml_node& node) { return node.attribute("type").value(); }
