@@ -10,9 +10,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <fmt/format.h>
 #include <optional>
 #include <pugixml.hpp>
+#include <utility>
 
 namespace slabhull::io {
 
@@ -77,7 +79,8 @@ public:
 
 private:
     [[noreturn]] void fail_at(std::ptrdiff_t byte, const std::string& text) const {
-        throw InputError(fmt::format("{}: byte {}: {}", soup_.path, byte, text), {Entity{"byte", byte, {}}});
+        throw InputError(fmt::format("{}: byte {}: {}", soup_.path, byte, readable(text)),
+                         {Entity{"byte", byte, {}}});
     }
     [[noreturn]] void fail(const pugi::xml_node& node, const std::string& text) const {
         const std::string name = node.attribute("Name").value();
@@ -218,7 +221,8 @@ private:
     template<class S, class T, class Convert>
     void parse_text(const pugi::xml_node& node, std::string_view text, Array<T>& result,
                     const Convert& convert) const {
-        FileCursor cursor{text, fmt::format("{}: array \"{}\"", soup_.path, node.attribute("Name").value())};
+        const std::string array = readable(node.attribute("Name").value());
+        FileCursor cursor{text, fmt::format("{}: array \"{}\"", soup_.path, array)};
         while (!cursor.at_end()) {
             if constexpr (sizeof(S) == 1) { // a number, not a character
                 const int value = cursor.parsed<int>("a number");
@@ -234,7 +238,14 @@ private:
 
     template<class T>
     Array<T> plain(const pugi::xml_node& node, std::uint64_t count) {
-        return values<T>(node, count, [](auto value) { return static_cast<T>(value); });
+        return values<T>(node, count, [&](auto value) {
+            if constexpr (std::integral<T> && std::same_as<decltype(value), std::uint64_t>) {
+                if (!std::in_range<T>(value)) {
+                    fail(node, fmt::format("{} is too large", value));
+                }
+            }
+            return static_cast<T>(value);
+        });
     }
 
     // --- mesh ---
@@ -279,6 +290,9 @@ private:
             const pugi::xml_node node = section.find_child_by_attribute("DataArray", "Name", name);
             if (!node) {
                 fail(piece, fmt::format("the array \"{}\" is missing", name));
+            }
+            if (std::string_view{node.attribute("type").value()}.starts_with("Float")) {
+                fail(node, "integers were expected, not reals");
             }
             return node;
         };
