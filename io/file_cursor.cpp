@@ -69,6 +69,17 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
+std::string readable(std::string_view text) {
+    constexpr std::size_t shown = 300; // of either end
+    std::string result{text};
+    if (text.size() > 2 * shown) {
+        result = fmt::format("{} ... {}", text.substr(0, shown), text.substr(text.size() - shown));
+    }
+    std::replace_if(
+        result.begin(), result.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+    return result;
+}
+
 std::string_view FileCursor::line() {
     std::size_t end = bytes_.substr(0, loaded_end_).find('\n', offset_);
     for (std::size_t before = loaded_end_; end == std::string_view::npos && load_more(offset_);
@@ -130,13 +141,13 @@ std::size_t FileCursor::plausible(std::uint64_t count, std::size_t least_size, c
 
 void FileCursor::fail_at(std::size_t offset, const std::string& text) const {
     if (binary_) {
-        throw InputError(fmt::format("{}: byte {}: {}", path_, offset, text),
+        throw InputError(fmt::format("{}: byte {}: {}", path_, offset, readable(text)),
                          {Entity{"byte", static_cast<std::int64_t>(offset), {}}});
     }
     const auto end = static_cast<std::ptrdiff_t>(std::min(offset, bytes_.size()));
     const auto line = 1 + (file_ != nullptr ? static_cast<std::ptrdiff_t>(file_->count_lines(offset))
                                             : std::count(bytes_.begin(), bytes_.begin() + end, '\n'));
-    throw InputError(fmt::format("{}: line {}: {}", path_, line, text), {Entity{"line", line, {}}});
+    throw InputError(fmt::format("{}: line {}: {}", path_, line, readable(text)), {Entity{"line", line, {}}});
 }
 
 void FileCursor::fail_word(std::string_view word, const char* what) const {

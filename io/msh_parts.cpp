@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "msh_parts.h"
 
-#include "column_stream.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 

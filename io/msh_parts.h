@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cell_groups.h"
+#include "column_stream.h"
 #include "slabhull/core/point.h"
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/io/soup.h"

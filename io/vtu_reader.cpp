@@ -13,11 +13,13 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <fmt/format.h>
 #include <iterator>
 #include <optional>
 #include <pugixml.hpp>
+#include <utility>
 
 namespace slabhull::io {
 
@@ -59,7 +61,8 @@ public:
 
 private:
     [[noreturn]] void fail_at(std::ptrdiff_t byte, const std::string& text) const {
-        throw InputError(fmt::format("{}: byte {}: {}", soup_.path, byte, text), {Entity{"byte", byte, {}}});
+        throw InputError(fmt::format("{}: byte {}: {}", soup_.path, byte, readable(text)),
+                         {Entity{"byte", byte, {}}});
     }
     [[noreturn]] void fail(const pugi::xml_node& node, const std::string& text) const {
         const std::string name = node.attribute("Name").value();
@@ -237,7 +240,7 @@ private:
     void parse_text(const pugi::xml_node& node, FileRange range, std::uint64_t count, const Start& start,
                     const Each& each) {
         FileCursor cursor{file_, range.begin, range.end,
-                          fmt::format("{}: array \"{}\"", soup_.path, node.attribute("Name").value())};
+                          fmt::format("{}: array \"{}\"", soup_.path, readable(node.attribute("Name").value()))};
         const bool too_many = count > (range.end - range.begin + 1) / 2;
         const std::uint64_t wanted = too_many ? words_in(range) : count;
         const auto place = start(wanted);
@@ -342,6 +345,9 @@ private:
             const pugi::xml_node node = section.find_child_by_attribute("DataArray", "Name", name);
             if (!node) {
                 fail(piece, fmt::format("the array \"{}\" is missing", name));
+            }
+            if (std::string_view{node.attribute("type").value()}.starts_with("Float")) {
+                fail(node, "integers were expected, not reals");
             }
             return node;
         };
@@ -480,7 +486,14 @@ private:
                 return grow(all, more, rows ? times(all_rows, width) : more);
             };
             values(node, type_of(node), times(rows.value_or(all_rows), width), start,
-                   [](T* place, std::uint64_t i, auto value) { place[i] = static_cast<T>(value); });
+                   [&](T* place, std::uint64_t i, auto value) {
+                       if constexpr (std::integral<T> && std::same_as<decltype(value), std::uint64_t>) {
+                           if (!std::in_range<T>(value)) {
+                               fail(node, fmt::format("{} is too large", value));
+                           }
+                       }
+                       place[i] = static_cast<T>(value);
+                   });
         };
         if (auto* strings = std::get_if<std::vector<std::string>>(&array.values)) {
             std::vector<std::string> more = texts(node, rows ? any_count : all_rows);

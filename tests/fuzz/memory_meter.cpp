@@ -14,7 +14,10 @@
 #endif
 
 #ifdef SLABHULL_METER
-#include <sanitizer/allocator_interface.h>
+// of sanitizer/allocator_interface.h, which Debian's gcc comes without
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
+                                                         void (*on_free)(const volatile void*));
+extern "C" std::size_t __sanitizer_get_allocated_size(const volatile void* memory);
 #endif
 
 namespace fuzz {
@@ -34,8 +37,7 @@ void on_malloc(const volatile void*, std::size_t size) {
 
 void on_free(const volatile void* memory) {
     if (memory != nullptr) {
-        live -= static_cast<std::int64_t>(
-            ::__sanitizer_get_allocated_size(const_cast<const void*>(memory)));
+        live -= static_cast<std::int64_t>(::__sanitizer_get_allocated_size(const_cast<const void*>(memory)));
     }
 }
 

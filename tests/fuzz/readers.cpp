@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <fmt/format.h>
 #include <optional>
 #include <stdexcept>
@@ -56,7 +57,10 @@ auto read_or_refuse(const Read& read, const std::filesystem::path& path, std::st
     } catch (const InputError& error) {
         const std::string_view message{error.what()};
         require(message.starts_with(path.parent_path().string()) ? "" : "the file is not named", "message");
-        require(message.size() < 2000 ? "" : "it is too long", "message");
+        const bool printable = std::none_of(message.begin(), message.end(),
+                                            [](unsigned char c) { return std::iscntrl(c) != 0; });
+        require(printable && message.size() < 2000 ? "" : "it is too long or not fit for a terminal",
+                "message");
         require_bounded(meter, bytes);
         return std::nullopt;
     }
@@ -154,7 +158,8 @@ Outcome read_tetgen(std::string_view bytes) {
         }
         rest.remove_prefix(next);
     }
-    return read_mesh(*io::format_named("tetgen"), first.empty() ? folder().put("a.node", bytes) : first, bytes);
+    return read_mesh(*io::format_named("tetgen"), first.empty() ? folder().put("a.node", bytes) : first,
+                     bytes);
 }
 
 Outcome read_curve(std::string_view bytes) {
@@ -170,11 +175,19 @@ Outcome read_table(std::string_view bytes) {
 }
 
 constexpr std::array all{
-    Reader{"msh", read_format<"msh">},   Reader{"vtu", read_format<"vtu">}, Reader{"vtk", read_format<"vtk">},
-    Reader{"tetgen", read_tetgen},       Reader{"medit", read_format<"medit">},
-    Reader{"mfem", read_format<"mfem">}, Reader{"avro", read_format<"avro">},
-    Reader{"stl", read_format<"stl">},   Reader{"off", read_format<"off">}, Reader{"obj", read_format<"obj">},
-    Reader{"ply", read_format<"ply">},   Reader{"curve", read_curve},       Reader{"csv", read_table},
+    Reader{"msh", read_format<"msh">},
+    Reader{"vtu", read_format<"vtu">},
+    Reader{"vtk", read_format<"vtk">},
+    Reader{"tetgen", read_tetgen},
+    Reader{"medit", read_format<"medit">},
+    Reader{"mfem", read_format<"mfem">},
+    Reader{"avro", read_format<"avro">},
+    Reader{"stl", read_format<"stl">},
+    Reader{"off", read_format<"off">},
+    Reader{"obj", read_format<"obj">},
+    Reader{"ply", read_format<"ply">},
+    Reader{"curve", read_curve},
+    Reader{"csv", read_table},
 };
 
 } // namespace

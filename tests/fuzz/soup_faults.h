@@ -8,9 +8,9 @@
 
 namespace fuzz {
 
-/// What contradicts itself in a soup that a reader let through, in words; empty if nothing does. Looked at are
-/// the promises of soup.h: vertices that exist, finite coordinates, arrays as long as what they belong to,
-/// groups that are listed in order.
+/// What contradicts itself in a soup that a reader let through, in words; empty if nothing does. Looked at
+/// are the promises of soup.h: vertices that exist, finite coordinates, arrays as long as what they belong
+/// to, groups that are listed in order.
 std::string fault_of(const slabhull::io::Soup& soup);
 /// The same for a table.
 std::string fault_of(const slabhull::io::CsvTable& table);

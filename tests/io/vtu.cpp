@@ -90,6 +90,8 @@ TEST_CASE("Faults in a VTU file are refused with array and cell or point", "[io]
                Contains("connectivity") && Contains("cell 0") && Contains("byte "));
     CHECK_THAT(text_refusal("0 1 2 3", "0 1 2 -1"), Contains("cell 0"));
     CHECK_THAT(text_refusal("0 1 2 3", "0 1 2"), Contains("connectivity"));
+    CHECK_THAT(text_refusal("\"Int32\" Name=\"c", "\"Float64\" Name=\"c"),
+               Contains("array \"connectivity\": integers were expected, not reals"));
     CHECK_THAT(text_refusal("0 1 2 3", "0 1 two 3"), Contains("\"two\""));
     CHECK_THAT(text_refusal("0 0 1<", "0 0 nan<"), Contains("point 3"));
     CHECK_THAT(text_refusal("0 0 1<", "0 0 1e999<"), !Catch::Equals(""));

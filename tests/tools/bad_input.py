@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bad input of every kind gets a message and the documented exit code, and leaves no file behind."""
+import os
+import struct
+import zlib
+
 import harness
 from harness import ProgramTest, slabhull
 
@@ -214,6 +218,235 @@ class Meshes(ProgramTest):
         case = self.case('dimension = 3\n[initial]\nmesh = "square.msh"\n')
         (self.dir / "square.msh").write_text(SPLIT_SQUARE)
         self.refused(case, INPUT, "tetrahedra")
+
+
+HUGE = 10**18
+
+# Small files of each format: what in them is replaced, by what, and the words that the message must have.
+MSH = SPLIT_SQUARE
+MSH4 = """$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Nodes
+1 3 1 3
+2 1 0 3
+1
+2
+3
+0 0 0
+1 0 0
+0 1 0
+$EndNodes
+$Elements
+1 1 1 1
+2 1 2 1
+1 1 2 3
+$EndElements
+"""
+VTU = """<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+<UnstructuredGrid><Piece NumberOfPoints="3" NumberOfCells="1">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">3</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">5</DataArray></Cells>
+<PointData><DataArray type="Float64" Name="t" format="appended" offset="0"/></PointData>
+</Piece></UnstructuredGrid>
+<AppendedData encoding="raw">
+_""" + struct.pack("<Q3d", 24, 0, 1, 2).decode("latin-1") + """
+</AppendedData></VTKFile>
+"""
+VTK = """# vtk DataFile Version 3.0
+t
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 3 double
+0 0 0 1 0 0 0 1 0
+CELLS 1 4
+3 0 1 2
+CELL_TYPES 1
+5
+POINT_DATA 3
+FIELD f 1
+t 1 3 double
+0 1 2
+"""
+MEDIT = ("MeshVersionFormatted 2\nDimension 3\nVertices\n3\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+         "Triangles\n1\n1 2 3 5\nEnd\n")
+MFEM = ("MFEM mesh v1.0\n\ndimension\n2\n\nelements\n1\n1 2 0 1 2\n\nboundary\n1\n3 1 0 1\n\n"
+        "vertices\n3\n2\n0 0\n1 0\n0 1\n")
+AVRO = '{"dim":3,"number":2,"type":"simplex",\n"vertices":[0,0,0,1,0,0,0,1,0],\n"elements":[0,1,2]\n}\n'
+OFF = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+PLY = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+STL = ("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+       "endsolid\n")
+NODE = "3 2 0 0\n0 0 0\n1 1 0\n2 0 1\n"
+ELE = "1 3 0\n0 0 1 2\n"
+
+CLAIMS = [  # counts that no file could hold
+    ("a.msh", MSH, "$Nodes\n4", f"$Nodes\n{HUGE}", "line", f"{HUGE} nodes"),
+    ("a.msh", MSH, "$Elements\n6", f"$Elements\n{HUGE}", "line", f"{HUGE} elements"),
+    ("a.msh", MSH, "$PhysicalNames\n2", f"$PhysicalNames\n{HUGE}", "line", f"{HUGE} names"),
+    ("a.msh", MSH, "1 1 2 1 1 1 2", f"1 1 {2 * 10**9} 1 1 1 2", "line"),
+    ("a.msh", MSH4, "1 3 1 3", f"1 {HUGE} 1 3", "line", f"{HUGE} nodes"),
+    ("a.msh", MSH4, "1 3 1 3", f"{HUGE} 3 1 3", "line", f"{HUGE} blocks"),
+    ("a.msh", MSH4, "2 1 2 1\n1 1", f"2 1 2 {HUGE}\n1 1", "line", f"{HUGE} elements"),
+    ("a.vtu", VTU, 'Points="3"', f'Points="{HUGE}"', "points", str(HUGE)),
+    ("a.vtu", VTU, 'Cells="1"', f'Cells="{HUGE}"', "cells", str(HUGE)),
+    ("a.vtu", VTU, 'Name="t"', f'Name="t" NumberOfComponents="{2**31 - 1}"', '"t"', "rows"),
+    ("a.vtu", VTU, "_\x18", "_\x18\x00\x00\x00\x00\x10\x00\x00", '"t"', "end of the file"),
+    ("a.vtu", VTU, 'offset="0"', f'offset="{HUGE}"', '"t"', "end of the file"),
+    ("a.vtk", VTK, "POINTS 3", f"POINTS {HUGE}", "line", str(HUGE)),
+    ("a.vtk", VTK, "CELLS 1 4", f"CELLS {HUGE} {4 * HUGE}", "line", "values of cells"),
+    ("a.vtk", VTK, "CELL_TYPES 1", f"CELL_TYPES {HUGE}", "line", f"{HUGE} cell types"),
+    ("a.vtk", VTK, "POINT_DATA 3", f"POINT_DATA {HUGE}", "line", f"{HUGE} points"),
+    ("a.vtk", VTK, "t 1 3 double", f"t {HUGE} 3 double", "line", str(HUGE)),
+    ("a.vtk", VTK, "FIELD f 1", f"FIELD f {HUGE}", "line"),
+    ("a.mesh", MEDIT, "Vertices\n3", f"Vertices\n{HUGE}", "line", f"{HUGE} vertices"),
+    ("a.mesh", MEDIT, "Triangles\n1", f"Triangles\n{HUGE}", "line", f"{HUGE} Triangles"),
+    ("a.mfem", MFEM, "elements\n1", f"elements\n{HUGE}", "line", f"{HUGE} elements"),
+    ("a.mfem", MFEM, "boundary\n1", f"boundary\n{HUGE}", "line", f"{HUGE} boundary"),
+    ("a.mfem", MFEM, "vertices\n3", f"vertices\n{HUGE}", "line", f"{HUGE} vertices"),
+    ("a.avro", AVRO, '"dim":3', f'"dim":{HUGE}', "line", "dimension"),
+    ("a.off", OFF, "3 1 0", f"{HUGE} 1 0", "line", f"{HUGE} vertices"),
+    ("a.off", OFF, "3 1 0", f"3 {HUGE} 0", "line", f"{HUGE} faces"),
+    ("a.off", OFF, "3 0 1 2", f"{HUGE} 0 1 2", "line", f"{HUGE} vertices"),
+    ("a.ply", PLY, "vertex 3", f"vertex {HUGE}", "line", f"{HUGE} vertex"),
+    ("a.ply", PLY, "face 1", f"face {HUGE}", "line", f"{HUGE} face"),
+    ("a.ply", PLY, "\n3 0 1 2", f"\n{HUGE} 0 1 2", "line", "face 0"),
+    ("a.stl", "x" * 80 + "\x7f" * 4 + "y" * 50, "", "", "byte", "facets take"),
+    ("a.node", NODE, "3 2 0 0", f"{HUGE} 2 0 0", "line", f"{HUGE} points"),
+    ("a.node", NODE, "3 2 0 0", f"3 2 {HUGE} 0", "line", f"{HUGE} attributes"),
+    ("a.ele", ELE, "1 3 0", f"{HUGE} 3 0", "a.ele", "line", f"{HUGE} cells"),
+    ("a.ele", ELE, "1 3 0", f"1 {HUGE} 0", "a.ele", "line", f"{HUGE} corners"),
+    ("a.face", "1 0\n0 0 1 2\n", "1 0", f"{HUGE} 0", "a.face", "line", f"{HUGE} triangles"),
+]
+
+NOT_A_NUMBER = [
+    ("a.msh", MSH, "2 1 0 0\n", "2 1 nan 0\n", "line 12", "node 2"),
+    ("a.msh", MSH4, "1 0 0\n", "1 inf 0\n", "line", "node 2"),
+    ("a.vtu", VTU, "0 0 0 1 0 0", "0 0 0 nan 0 0", "point 1"),
+    ("a.vtk", VTK, "0 0 0 1 0 0", "0 0 0 nan 0 0", "line 6", "point 1"),
+    ("a.mesh", MEDIT, "1 0 0 0", "1 nan 0 0", "line 6", "vertex 2"),
+    ("a.mfem", MFEM, "1 0\n0 1\n", "1 -inf\n0 1\n", "line 18", "vertex 1"),
+    ("a.avro", AVRO, "1,0,0,0,1,0", "1e999,0,0,0,1,0", "line 2", "coordinate"),
+    ("a.off", OFF, "1 0 0", "1 nan 0", "line 4", "vertex 1"),
+    ("a.obj", OBJ, "v 1 0 0", "v 1 nan 0", "line 2", "vertex 2"),
+    ("a.ply", PLY, "1 0 0", "1 nan 0", "line 11", "vertex 1"),
+    ("a.stl", STL, "vertex 1 0 0", "vertex 1 nan 0", "line 5", "facet 0"),
+    ("a.node", NODE, "1 1 0", "1 nan 0", "line 3", "point 1"),
+]
+
+OUT_OF_RANGE = [
+    ("a.msh", MSH, "6 2 2 5 1 1 3 4", "6 2 2 5 1 1 3 5", "line", "element 6", "5"),
+    ("a.msh", MSH4, "1 1 2 3\n", f"1 1 2 {HUGE}\n", "line", "element 1", str(HUGE)),
+    ("a.vtu", VTU, ">0 1 2<", ">0 1 3<", "cell 0"),
+    ("a.vtu", VTU, ">0 1 2<", ">0 -1 2<", "cell 0"),
+    ("a.vtk", VTK, "3 0 1 2", "3 0 1 3", "line 8", "cell 0", "point 3"),
+    ("a.mesh", MEDIT, "1 2 3 5", "1 2 4 5", "line 10", "Triangles number 1", "vertex 4"),
+    ("a.mfem", MFEM, "1 2 0 1 2", "1 2 0 1 3", "line", "element 0", "vertex 3"),
+    ("a.avro", AVRO, "[0,1,2]", "[0,1,3]", "line 3", "element 0", "vertex 3"),
+    ("a.off", OFF, "3 0 1 2", "3 0 1 3", "line 6", "face 0", "vertex 3"),
+    ("a.obj", OBJ, "f 1 2 3", "f 1 2 4", "line 4", "face 1", "vertex 4"),
+    ("a.ply", PLY, "3 0 1 2", "3 0 1 3", "line 13", "face 0"),
+    ("a.ele", ELE, "0 0 1 2", "0 0 1 3", "a.ele", "line 2", "cell 0", "point 3"),
+]
+
+WHOLE = {"a.msh": MSH, "a.vtu": VTU, "a.vtk": VTK, "a.mesh": MEDIT, "a.mfem": MFEM, "a.avro": AVRO, "a.off": OFF,
+         "a.obj": OBJ, "a.ply": PLY, "a.stl": STL, "a.ele": ELE}
+
+
+class Formats(ProgramTest):
+    """What is wrong in a file of any format is refused with its place, and in memory that goes with its size."""
+
+    def setUp(self):
+        super().setUp()
+        self.put("a.node", NODE)  # beside the .ele and .face
+        self.least = self.peak("--help")[1]
+
+    def put(self, name, text):
+        path = self.dir / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode("latin-1"))
+        return path
+
+    def peak(self, *arguments):
+        """Exit code, peak memory in bytes and messages."""
+        child = harness.subprocess.Popen([harness.PROGRAM, *map(str, arguments)], stdout=harness.subprocess.DEVNULL,
+                                         stderr=harness.subprocess.PIPE)
+        messages = child.stderr.read().decode(errors="replace")
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        child.stderr.close()
+        return child.returncode, 1024 * usage.ru_maxrss, messages
+
+    def refused_file(self, name, data, *words):
+        path = self.put(name, data)
+        code, peak, messages = self.peak("info", path)
+        self.assertEqual(code, INPUT, messages)
+        self.assertIn(str(self.dir), messages)
+        for word in words:
+            self.assertIn(word, messages)
+        self.assertLess(len(messages), 1000)
+        self.assertLess(peak, self.least + 50 * 2**20 + 100 * path.stat().st_size)
+
+    def refused_each(self, table):
+        for name, text, before, after, *words in table:
+            with self.subTest(name, before=before, after=after[:30]):
+                self.assertIn(before, text)
+                self.put("a.node", NODE)
+                self.refused_file(name, text.replace(before, after, 1), *words)
+
+    def test_the_files_themselves_are_good(self):
+        for name, text in WHOLE.items():
+            with self.subTest(name):
+                self.assertEqual(slabhull("info", self.put(name, text)).code, 0)
+
+    def test_counts_that_no_file_could_hold(self):
+        self.refused_each(CLAIMS)
+
+    def test_coordinates_that_are_no_finite_numbers(self):
+        self.refused_each(NOT_A_NUMBER)
+
+    def test_indices_out_of_range(self):
+        self.refused_each(OUT_OF_RANGE)
+
+    def test_torn_files(self):
+        for name, text in WHOLE.items():
+            with self.subTest(name):
+                self.refused_file(name, text[:len(text) // 2])
+                self.refused_file(name, "")
+
+    def test_huge_strings(self):
+        """Words, names and lines of megabytes are refused with short messages, or are names like others."""
+        long = "x" * (4 << 20)
+        for name, text, before, after in (
+                ("a.msh", MSH, "2.2 0 8", long), ("a.msh", MSH, "$Nodes", "$" + long), ("a.vtu", VTU, "Float64", long),
+                ("a.vtu", VTU, "UnstructuredGrid", long), ("a.vtk", VTK, "double", long), ("a.vtk", VTK, "CELLS", long),
+                ("a.mesh", MEDIT, "Triangles", long), ("a.mfem", MFEM, "elements", long), ("a.avro", AVRO, "dim", long),
+                ("a.off", OFF, "OFF", long), ("a.obj", OBJ, "f 1", "f " + long), ("a.ply", PLY, "double", long),
+                ("a.stl", STL, "facet", long), ("a.stl", STL, "endloop", long), ("a.node", NODE, "1 1 0", "1 1 " + long)):
+            with self.subTest(name, before=before):
+                self.refused_file(name, text.replace(before, after, 1))
+
+    def test_deep_nesting(self):
+        deep = 500_000
+        self.refused_file("a.vtu", "<a>" * deep)
+        self.refused_file("a.vtu", "<VTKFile>" + "<a>" * deep + "</a>" * deep + "</VTKFile>")
+        self.refused_file("a.avro", '{"a":' + "[" * deep)
+        self.refused_file("a.avro", '{"a":' + "[" * deep + "]" * deep + "}")
+
+    def test_packed_data_that_hold_more_than_they_may(self):
+        """Of 64 MiB in 64 KiB not more is unpacked than the XML has a place for."""
+        bomb = zlib.compress(bytes(64 << 20))
+        words = struct.pack("<4Q", 1, 64 << 20, 0, len(bomb))
+        for text in (VTU, VTU.replace('NumberOfPoints="3"', f'NumberOfPoints="{HUGE}"')):
+            head, tail = text.replace("<VTKFile", '<VTKFile compressor="vtkZLibDataCompressor"').encode("latin-1").split(b"_\x18")
+            self.refused_file("a.vtu", head + b"_" + words + bomb + tail[31:])
+        lz4 = b"\x1f\0\1\0" + b"\xff" * (256 << 10) + b"\0\x50" + bytes(5)
+        words = struct.pack("<4Q", 1, 64 << 20, 0, len(lz4))
+        head, tail = VTU.replace("<VTKFile", '<VTKFile compressor="vtkLZ4DataCompressor"').encode("latin-1").split(b"_\x18")
+        self.refused_file("a.vtu", head + b"_" + words + lz4 + tail[31:], '"t"')
 
 
 class Output(ProgramTest):
