@@ -77,9 +77,9 @@ bool can_hold(const io::Format& format, const io::Soup& soup) {
 /// Writers refuse what the format cannot hold, by an Error; true if it is written.
 bool write(const io::Format& format, const std::filesystem::path& path, const io::Soup& soup) {
     try {
-        io::AtomicFile file{path};
-        format.write(file, io::columns_of(soup));
-        file.commit();
+        io::AtomicFiles files;
+        format.write(files, path, io::columns_of(soup), {});
+        files.commit();
         return true;
     } catch (const InputError&) {
         throw;
