@@ -25,8 +25,8 @@ fuzz() {
         -print_final_stats=1 -artifact_prefix="$crashes/" "$found" "$data/corpus/$reader" \
         "$data/regressions/$reader"; } >"$log" 2>&1 || status=$?
     echo "$reader: exit $status, $(grep -o 'cov: [0-9]* ft: [0-9]* corp: [0-9/KMb]*' "$log" | tail -1)," \
-        "$(grep number_of_executed_units "$log" | grep -o '[0-9]*$') runs, $(grep '^user' "$log") CPU," \
-        "$(find "$crashes" -type f | wc -l) crashes in $crashes"
+        "$(grep number_of_executed_units "$log" | grep -o '[0-9]*$') runs," $(grep '^user\|^sys' "$log") \
+        "$(find "$crashes" -type f | wc -l) in $crashes"
     return "$status"
 }
 
