@@ -28,7 +28,7 @@ std::vector<fs::path> files_in(const std::string& folder, std::string_view reade
     return files;
 }
 
-/// Those that can be read.
+/// Those seeds that can be read.
 std::vector<std::string> valid_files(const fuzz::Reader& reader) {
     std::vector<std::string> valid;
     for (const fs::path& path : files_in("corpus", reader.name)) {
@@ -73,7 +73,7 @@ TEST_CASE("Every seed and every file that once broke a reader is refused, or rea
     for (const fuzz::Reader& reader : fuzz::readers()) {
         CAPTURE(reader.name);
         std::size_t read = 0;
-        for (const char* folder : {"corpus", "regressions"}) {
+        for (const char* folder : {"corpus", "found", "regressions"}) {
             for (const fs::path& path : files_in(folder, reader.name)) {
                 CAPTURE(path.filename());
                 CHECK_NOTHROW(read += reader.read(scratch::bytes_of(path)) == fuzz::Outcome::read ? 1 : 0);
