@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Fuzzes a reader: scripts/fuzz.sh READER MINUTES, or keeps of what was found what adds coverage: scripts/fuzz.sh --merge READER
+# Fuzzes a reader: scripts/fuzz.sh READER MINUTES
+# Keeps in tests/fuzz/found/READER what of all that was found adds coverage: scripts/fuzz.sh --merge READER
 # Needs the build `cmake --preset fuzz && cmake --build --preset fuzz`. Files found go to build/fuzz/found/READER, crashes
 # to build/fuzz/crashes/READER: fix them, and move them to tests/fuzz/regressions/READER.
 set -euo pipefail
@@ -17,34 +18,36 @@ limits=(-max_len=8192 -timeout=180 -report_slow_units=180 -rss_limit_mb=1024 -ma
 
 fuzz() {
     local reader=$1 seconds=$((60 * $2)) found=$build/found/$1 crashes=$build/crashes/$1 log=$build/logs/$1.log
-    mkdir -p "$found" "$crashes" "$build/logs" "$data/regressions/$reader"
+    local given=("$data/corpus/$reader")
+    local more
+    for more in "$data/found/$reader" "$data/regressions/$reader"; do
+        [[ -d $more ]] && given+=("$more")
+    done
+    mkdir -p "$found" "$crashes" "$build/logs"
     local dictionary=()
     [[ -f $data/dictionaries/$reader.dict ]] && dictionary=(-dict="$data/dictionaries/$reader.dict")
     local status=0
     { time "$build/tests/fuzz/fuzz_$reader" "${limits[@]}" "${dictionary[@]}" -max_total_time="$seconds" \
-        -print_final_stats=1 -artifact_prefix="$crashes/" "$found" "$data/corpus/$reader" \
-        "$data/regressions/$reader"; } >"$log" 2>&1 || status=$?
+        -print_final_stats=1 -artifact_prefix="$crashes/" "$found" "${given[@]}"; } >"$log" 2>&1 || status=$?
     echo "$reader: exit $status, $(grep -o 'cov: [0-9]* ft: [0-9]* corp: [0-9/KMb]*' "$log" | tail -1)," \
-        "$(grep number_of_executed_units "$log" | grep -o '[0-9]*$') runs, $(grep '^user' "$log") CPU," \
-        "$(find "$crashes" -type f | wc -l) crashes in $crashes"
+        "$(grep number_of_executed_units "$log" | grep -o '[0-9]*$') runs," $(grep '^user\|^sys' "$log") \
+        "$(find "$crashes" -type f | wc -l) in $crashes"
     return "$status"
 }
 
-# The corpus anew: files that reach code which smaller ones do not.
+# Of all files found those that reach code which the seeds do not.
 merge() {
-    local reader=$1 corpus=$data/corpus/$1
-    mkdir -p "$folder/corpus" "$build/found/$reader"
-    "$build/tests/fuzz/fuzz_$reader" "${limits[@]}" -max_len=4096 -merge=1 -use_counters=0 "$folder/corpus" "$corpus" \
-        "$build/found/$reader" 2>&1 | tail -2
-    # seeds keep their names
-    local file seed
-    for seed in "$corpus"/*; do
-        for file in "$folder/corpus"/*; do
-            cmp -s "$seed" "$file" && rm "$file" && break
-        done
+    local reader=$1 kept=$data/found/$1 new=$folder/new
+    mkdir -p "$new" "$kept" "$build/found/$reader"
+    cp "$data/corpus/$reader"/* "$new"
+    "$build/tests/fuzz/fuzz_$reader" "${limits[@]}" -max_len=4096 -set_cover_merge=1 -use_counters=0 "$new" "$kept" \
+        "$build/found/$reader" 2>&1 | tail -1
+    rm -rf "$kept"
+    for seed in "$data/corpus/$reader"/*; do
+        rm "$new/$(basename "$seed")"
     done
-    find "$folder/corpus" -type f -exec mv -t "$corpus" {} +
-    du -sh --apparent-size "$corpus"
+    mv "$new" "$kept"
+    du -sh --apparent-size "$kept"
 }
 
 if [[ ${1:-} == --merge ]]; then

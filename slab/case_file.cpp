@@ -7,9 +7,11 @@
 #include "key_table.h"
 #include "motion_keys.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 
 namespace slabhull {
 
@@ -138,8 +140,24 @@ private:
                           fmt::format("a spacing that makes at most {} layers in a slab", most_layers));
             }
         }
+        require_distinct_levels(time);
         read_adapt(time);
         time.require_all_known();
+    }
+
+    void require_distinct_levels(KeyTable& time) const {
+        const double duration = case_.end - case_.start;
+        if (!std::isfinite(duration)) {
+            time.fail("end", "a finite duration since \"start\"");
+        }
+        const double slab = duration / case_.slabs;
+        const double layers =
+            case_.spacing ? std::max(1.0, std::ceil(slab / *case_.spacing)) : case_.layers.value_or(1);
+        const double rounding =
+            std::numeric_limits<double>::epsilon() * std::max(std::abs(case_.start), std::abs(case_.end));
+        if (!(slab / layers > 4 * rounding)) {
+            time.fail("end", "a time so long after \"start\" that rounding leaves no two levels at one time");
+        }
     }
 
     void read_adapt(KeyTable& time) {

@@ -221,7 +221,7 @@ void add_convert(CLI::App& program, int& exit_code) {
                   "OUT in Medit's dialect with vertices x y z t, from the point data t");
     app->add_option("--pieces", command->writing.pieces,
                     "So many files, ranges of cells, for parallel readers: .pvtu, .msh")
-        ->check(CLI::PositiveNumber);
+        ->check([](const std::string& count) { return count == "0" ? "expected at least 1, not 0" : ""; });
     app->add_option("--region", command->region, "Of a hull, only that part: initial, side or terminating")
         ->check(CLI::IsMember(regions));
     app->add_option("--patch", command->patch,

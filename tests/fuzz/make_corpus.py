@@ -298,6 +298,8 @@ def by_us(program):
 
 
 if __name__ == "__main__":
+    for case in (HERE.parent.parent / "examples").glob("*.toml"):
+        put("case", case.name, case.read_bytes())
     vtu_by_vtk()
     legacy_by_vtk()
     legacy_by_hand()

@@ -59,6 +59,8 @@ class CaseFiles(ProgramTest):
             ("[time]\nstart = 1\nend = 1\n", "time.end"),
             ("[time]\nlayers = 2\nspacing = 0.1\n", "time.spacing"),
             ("[time]\nend = inf\n", "time.end"),
+            ("[time]\nstart = -1e308\nend = 1e308\n", "time.end"),
+            ("[time]\nstart = 1\nend = 1.0000000000000002\nlayers = 10\n", "time.end"),
             ("[side]\nsplit = \"C\"\n", "side.split"),
             ("[trajectory]\nscheme = \"rk5\"\n", "trajectory.scheme"),
             ("[motion.body]\nkind = \"rotation\"\nrate = 1\n", "motion.body.centre"),

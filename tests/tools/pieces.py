@@ -125,8 +125,8 @@ class Pvtu(PiecesTest):
         self.refused(3, ["whole_1.vtu"], whole, self.dir / "back.vtu")
 
     def test_wrong_numbers_of_pieces_and_formats_are_refused(self):
-        self.refused(2, ["--pieces"], ROOM, self.dir / "room.pvtu")
         self.refused(2, ["--pieces"], ROOM, self.dir / "room.pvtu", "--pieces", 0)
+        self.refused(2, ["4.1"], ROOM, self.dir / "out.msh", "--pieces", 2, "--version", "2.2")
         self.refused(2, ["10000000 pieces"], ROOM, self.dir / "room.pvtu", "--pieces", 10000000)
         self.refused(2, ["not written in pieces"], ROOM, self.dir / "room.avro", "--pieces", 2)
         self.assertEqual(list(self.dir.iterdir()), [])

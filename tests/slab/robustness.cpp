@@ -28,7 +28,7 @@ std::vector<fs::path> files_in(const std::string& folder, std::string_view reade
     return files;
 }
 
-/// Those that can be read.
+/// Those seeds that can be read.
 std::vector<std::string> valid_files(const fuzz::Reader& reader) {
     std::vector<std::string> valid;
     for (const fs::path& path : files_in("corpus", reader.name)) {
@@ -68,11 +68,12 @@ std::string difference_after(const Change& change) {
 
 } // namespace
 
-TEST_CASE("Every seed and every file that once broke a reader is refused, or read and consistent", "[io]") {
+TEST_CASE("Every seed and every file that once broke a reader is refused, or read and consistent",
+          "[readers]") {
     for (const fuzz::Reader& reader : fuzz::readers()) {
         CAPTURE(reader.name);
         std::size_t read = 0;
-        for (const char* folder : {"corpus", "regressions"}) {
+        for (const char* folder : {"corpus", "found", "regressions"}) {
             for (const fs::path& path : files_in(folder, reader.name)) {
                 CAPTURE(path.filename());
                 CHECK_NOTHROW(read += reader.read(scratch::bytes_of(path)) == fuzz::Outcome::read ? 1 : 0);
@@ -82,7 +83,7 @@ TEST_CASE("Every seed and every file that once broke a reader is refused, or rea
     }
 }
 
-TEST_CASE("Ten thousand bytes of each format's files, changed one at a time, break no reader", "[io]") {
+TEST_CASE("Ten thousand bytes of each format's files, changed one at a time, break no reader", "[readers]") {
     constexpr int rounds = 10000;
     for (const fuzz::Reader& reader : fuzz::readers()) {
         CAPTURE(reader.name);
@@ -107,7 +108,7 @@ TEST_CASE("Ten thousand bytes of each format's files, changed one at a time, bre
     }
 }
 
-TEST_CASE("Files cut short anywhere break no reader", "[io]") {
+TEST_CASE("Files cut short anywhere break no reader", "[readers]") {
     constexpr std::size_t small = 700;
     for (const fuzz::Reader& reader : fuzz::readers()) {
         CAPTURE(reader.name);
@@ -120,7 +121,7 @@ TEST_CASE("Files cut short anywhere break no reader", "[io]") {
     }
 }
 
-TEST_CASE("A soup that contradicts itself is found out", "[io]") {
+TEST_CASE("A soup that contradicts itself is found out", "[readers]") {
     const auto says = [](const char* text) { return Catch::Contains(text); };
     CHECK(fuzz::fault_of(tetrahedron()).empty());
     CHECK_THAT(fault_after([](io::Soup& soup) { soup.points[2][1] = std::nan(""); }), says("point 2"));
@@ -147,7 +148,7 @@ TEST_CASE("A soup that contradicts itself is found out", "[io]") {
     CHECK(!fuzz::fault_of(table).empty());
 }
 
-TEST_CASE("What a round trip loses is found out", "[io]") {
+TEST_CASE("What a round trip loses is found out", "[readers]") {
     CHECK(fuzz::difference(tetrahedron(), tetrahedron(), {}).empty());
     CHECK(!difference_after([](io::Soup& soup) { soup.points[0][0] = -0.0; }).empty());
     CHECK(!difference_after([](io::Soup& soup) { soup.simplices[3].vertices[0] = 1; }).empty());
@@ -157,7 +158,7 @@ TEST_CASE("What a round trip loses is found out", "[io]") {
         !difference_after([](io::Soup& soup) { soup.point_data[0].values = Array<double>(4, 0.5); }).empty());
 }
 
-TEST_CASE("Memory is metered where AddressSanitizer is at work", "[io]") {
+TEST_CASE("Memory is metered where AddressSanitizer is at work", "[readers]") {
     const fuzz::MemoryMeter meter;
     { const std::vector<char> block(1000000); }
     CHECK((meter.peak() >= 1000000) == fuzz::MemoryMeter::works());
