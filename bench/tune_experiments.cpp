@@ -201,29 +201,37 @@ private:
                std::abs(now.layers / (first_->divisions.layers * scale_) - 1);
     }
 
-    /// Meshes the caps unless that takes too long; where the prediction was not good enough, tries again with
-    /// one that knows better.
+    /// Meshes the caps unless that takes too long; where the prediction was not good enough, searches again
+    /// with one that knows better, and takes the best in the end.
     void verify(std::size_t level, double refinement, const HullCounts& paper) {
+        if (predicted(refinement).cells > most_cells_) {
+            tell(level, refinement, predicted(refinement), paper, "predicted");
+            return;
+        }
+        double best = refinement;
+        Counts best_counts{};
         constexpr int most_attempts = 3;
-        for (int attempt = 1;; ++attempt) {
-            const Counts guess = predicted(refinement);
-            if (guess.cells > most_cells_) {
-                tell(level, refinement, guess, paper, "predicted");
-                return;
-            }
-            const Case the_case = experiment_at(name_, refinement);
-            const Counts side = side_of<D>(the_case);
-            const Counts caps = mesh_caps<D>(the_case);
-            const Counts counts{side.cells + caps.cells, side.vertices + caps.vertices};
-            caps_.add(refinement, caps);
-            if (deviation(counts, paper) < good_enough || attempt == most_attempts) {
-                tell(level, refinement, counts, paper, "meshed");
-                std::printf("    the prediction was off by %+.2f %%\n",
-                            100 * (guess.cells / counts.cells - 1));
-                return;
+        for (int attempt = 0; attempt < most_attempts && deviation(best_counts, paper) > good_enough;
+             ++attempt) {
+            const Counts counts = meshed(refinement);
+            if (deviation(counts, paper) < deviation(best_counts, paper)) {
+                best = refinement;
+                best_counts = counts;
             }
             refinement = search(paper);
         }
+        tell(level, best, best_counts, paper, "meshed");
+    }
+
+    Counts meshed(double refinement) {
+        const Case the_case = experiment_at(name_, refinement);
+        const Counts side = side_of<D>(the_case);
+        const Counts caps = mesh_caps<D>(the_case);
+        const Counts counts{side.cells + caps.cells, side.vertices + caps.vertices};
+        std::printf("    predicted %.0f cells, %+.2f %%\n", predicted(refinement).cells,
+                    100 * (predicted(refinement).cells / counts.cells - 1));
+        caps_.add(refinement, caps);
+        return counts;
     }
 
     void tell(std::size_t level, double refinement, const Counts& counts, const HullCounts& paper,

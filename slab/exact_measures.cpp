@@ -75,8 +75,8 @@ ExactMeasures cube_with_turning(double edge, const std::vector<std::array<double
 } // namespace
 
 double turning_ellipsoid_measure(const std::array<double, 3>& a, double rate) {
-    // Gauss's rule in z = cos(theta); in phi, of which the integrand is periodic and smooth, equal steps converge
-    // faster than any power.
+    // Gauss's rule in z = cos(theta); in phi, of which the integrand is periodic and smooth, equal steps
+    // converge faster than any power.
     constexpr int rings = 400;
     constexpr int sectors = 800;
     double sum = 0;

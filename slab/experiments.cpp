@@ -69,9 +69,9 @@ constexpr std::array ellipsoid_levels{
     ExperimentLevel{8.145, {162044418, 34449255}}};
 constexpr std::array tandem_levels{
     ExperimentLevel{0.942, {603432, 128055}},     ExperimentLevel{1.324, {1627918, 345616}},
-    ExperimentLevel{1.912, {4523078, 959759}},    ExperimentLevel{2.658, {12082322, 2566188}},
-    ExperimentLevel{3.830, {35245617, 7478525}},  ExperimentLevel{5.315, {94464074, 20066876}},
-    ExperimentLevel{7.593, {278561736, 59127488}}};
+    ExperimentLevel{1.912, {4523078, 959759}},    ExperimentLevel{2.665, {12082322, 2566188}},
+    ExperimentLevel{3.834, {35245617, 7478525}},  ExperimentLevel{5.326, {94464074, 20066876}},
+    ExperimentLevel{7.601, {278561736, 59127488}}};
 
 /// Of the plane ones, whose hulls have twice as many triangles as vertices whatever the spacings are.
 constexpr Spacings plane{0.15, 0.4, 0.3, 0.25};

@@ -44,13 +44,15 @@ void converge(const std::string& name, int levels) {
 
 } // namespace
 
-TEST_CASE("the plane experiments have the paper's counts and converge at order 2 over all levels", "[convergence]") {
+TEST_CASE("the plane experiments have the paper's counts and converge at order 2 over all levels",
+          "[convergence]") {
     converge<2>("circle", 9);
     converge<2>("expanding-circle", 9);
 }
 
-TEST_CASE("the sphere and the expanding sphere have the paper's counts and converge at order 2 over levels 1 to 4",
-          "[convergence]") {
+TEST_CASE(
+    "the sphere and the expanding sphere have the paper's counts and converge at order 2 over levels 1 to 4",
+    "[convergence]") {
     converge<3>("sphere", 4);
     converge<3>("expanding-sphere", 4);
 }

@@ -41,7 +41,8 @@ double integral(const std::function<double(double)>& f) {
     }
 }
 
-/// The side of an ellipsoid that turns about z, from tangents and velocity: with N = x_u x x_v, the element is
+/// The side of an ellipsoid that turns about z, from tangents and velocity: with N = x_u x x_v, the element
+/// is
 /// |(N, N.v)|. Angles are about the x axis, not about z as in the library.
 double swept_by_tangents(const Vector& a, double rate) {
     return integral([&](double along) {
@@ -105,22 +106,27 @@ TEST_CASE("the hull of the expanding sphere has the paper's closed form", "[exac
     CHECK(exact_measures("expanding-sphere").hull() == Approx(closed).epsilon(digits));
 }
 
-TEST_CASE("what a turning ellipsoid sweeps is what other parameters and another rule give", "[exact-measures]") {
+TEST_CASE("what a turning ellipsoid sweeps is what other parameters and another rule give",
+          "[exact-measures]") {
     for (const Vector& axes : {Vector{1, 3, 2}, Vector{3, 1, 2}, Vector{1, 1.1, 5}}) {
         for (const double rate : {0.0, 0.3, pi / 2, -4.0}) {
             INFO(axes[0] << ", " << axes[1] << ", " << axes[2] << " at " << rate);
-            CHECK(turning_ellipsoid_measure(axes, rate) == Approx(swept_by_tangents(axes, rate)).epsilon(digits));
+            CHECK(turning_ellipsoid_measure(axes, rate) ==
+                  Approx(swept_by_tangents(axes, rate)).epsilon(digits));
         }
     }
 }
 
-TEST_CASE("a sphere sweeps its area however it turns; a spheroid at rest has a closed form", "[exact-measures]") {
+TEST_CASE("a sphere sweeps its area however it turns; a spheroid at rest has a closed form",
+          "[exact-measures]") {
     CHECK(turning_ellipsoid_measure({1, 1, 1}, 1.5) == Approx(4 * pi).epsilon(digits));
     const double e = std::sqrt(1 - 1.0 / 9); // of the prolate spheroid (1, 1, 3)
-    CHECK(turning_ellipsoid_measure({1, 1, 3}, 7) == Approx(2 * pi * (1 + 3 / e * std::asin(e))).epsilon(digits));
+    CHECK(turning_ellipsoid_measure({1, 1, 3}, 7) ==
+          Approx(2 * pi * (1 + 3 / e * std::asin(e))).epsilon(digits));
 }
 
-TEST_CASE("the turning experiments are a cube less their bodies, and what bodies and cube sweep", "[exact-measures]") {
+TEST_CASE("the turning experiments are a cube less their bodies, and what bodies and cube sweep",
+          "[exact-measures]") {
     const ExactMeasures one = exact_measures("ellipsoid");
     CHECK(one.initial == Approx(4096 - 8 * pi).epsilon(digits));
     CHECK(one.terminating == one.initial);

@@ -21,10 +21,9 @@ struct ExactMeasures {
 /// Throws UsageError naming the experiments there are.
 ExactMeasures exact_measures(const std::string& experiment);
 
-/// What a surface that turns about z at `rate` (radians per unit of time) sweeps in a unit of time: the integral
-/// of sqrt(1 + v_n^2) over the ellipsoid with these semi-axes, v_n its normal velocity. With rate 0, its area.
-/// Good to 12 digits for ratios of semi-axes up to 5.
-/// Cost: some milliseconds.
+/// What a surface that turns about z at `rate` (radians per unit of time) sweeps in a unit of time: the
+/// integral of sqrt(1 + v_n^2) over the ellipsoid with these semi-axes, v_n its normal velocity. With rate 0,
+/// its area. Good to 12 digits for ratios of semi-axes up to 5. Cost: some milliseconds.
 double turning_ellipsoid_measure(const std::array<double, 3>& semi_axes, double rate);
 
 } // namespace slabhull
