@@ -13,12 +13,13 @@ namespace {
 constexpr const char* page_style = R"(<style>
 :root{color-scheme:light dark}
 body{margin:0;font:15px/1.5 system-ui,sans-serif;background:#fff;color:#1c2128}
-main{max-width:76rem;margin:0 auto;padding:1.5rem}
+main{max-width:88rem;margin:0 auto;padding:1.5rem}
 h2{margin-top:3rem;border-bottom:1px solid #b9c0c8}
 .wide{overflow-x:auto}
 table{border-collapse:collapse;margin:1rem 0;font-variant-numeric:tabular-nums}
 caption{text-align:left;font-weight:600;padding:.3rem 0}
 th,td{padding:.2rem .7rem;text-align:right;white-space:nowrap;border-bottom:1px solid #d5dae0}
+thead th{white-space:normal;vertical-align:bottom}
 th:first-child,td:first-child{text-align:left}
 tfoot td,tfoot th{border-top:2px solid #8a939d;font-weight:600}
 figure{display:inline-block;margin:.5rem .5rem .5rem 0;max-width:100%}
@@ -267,20 +268,26 @@ std::vector<StudyRow> same_level(const std::vector<StudySeries>& rivals) {
     return rows;
 }
 
+/// Plots against the level say nothing for one level.
+std::string where_several(const StudySeries& series, const Plot& plot) {
+    return series.size() > 1 ? html_of(plot) : "";
+}
+
 std::string splits_section(const std::vector<StudySeries>& rivals) {
     const std::vector<StudyRow> rows = same_level(rivals);
     const std::string& name = rows.front().experiment;
     return fmt::format("<section><h2>{}: splits side by side</h2>\n", escaped(name)) +
            html_of(splits_table(rows)) + html_of(plot_of_split_angles(rows)) +
-           html_of(plot_of_measure(rivals, 2, "Error of the side by split: " + name)) + "</section>\n";
+           where_several(rivals.front(), plot_of_measure(rivals, 2, "Error of the side by split: " + name)) +
+           "</section>\n";
 }
 
 std::string section_of(const StudySeries& series) {
     return fmt::format("<section><h2>{}</h2>\n", escaped(heading_of(series))) +
-           html_of(counts_table(series)) + html_of(errors_table(series)) + html_of(plot_of_errors(series)) +
-           html_of(plot_of_angles(series.back())) + html_of(time_table(series)) +
-           html_of(plot_of_seconds(series)) + html_of(plot_of_memory(series)) +
-           html_of(quality_table(series)) + "</section>\n";
+           html_of(counts_table(series)) + html_of(errors_table(series)) +
+           where_several(series, plot_of_errors(series)) + html_of(plot_of_angles(series.back())) +
+           html_of(time_table(series)) + where_several(series, plot_of_seconds(series)) +
+           where_several(series, plot_of_memory(series)) + html_of(quality_table(series)) + "</section>\n";
 }
 
 /// Of each experiment the first split only.

@@ -60,15 +60,18 @@ LevelRange parsed_levels(const std::string& text) {
     return range;
 }
 
-std::vector<std::string> parsed_splits(const std::string& text, int dimension) {
-    if (text == "all") {
-        return dimension == 2 ? std::vector<std::string>{"centre", "diagonal"}
-                              : std::vector<std::string>{"A", "B", "C", "D", "E"};
+std::vector<Split> parsed_splits(const std::string& text, const Case& the_case) {
+    if (text.empty()) {
+        return {the_case.split};
     }
-    std::vector<std::string> splits;
+    if (text == "all") {
+        return the_case.dimension == 2 ? std::vector{Split::centre, Split::diagonal}
+                                       : std::vector{Split::A, Split::B, Split::C, Split::D, Split::E};
+    }
+    std::vector<Split> splits;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
-        splits.push_back(text.substr(begin, end - begin));
+        splits.push_back(split_from_name(text.substr(begin, end - begin), the_case.dimension));
         begin = end + 1;
     }
     return splits;
@@ -81,13 +84,10 @@ void add_cases(std::vector<Case>& cases, const std::string& name, LevelRange lev
     if (options.experiment == "all") {
         levels.last = std::min(levels.last, static_cast<int>(experiment_levels(name).size()));
     }
-    const Case first = experiment_case(name, levels.first);
-    for (const std::string& split : parsed_splits(options.splits, first.dimension)) {
+    for (const Split split : parsed_splits(options.splits, experiment_case(name, levels.first))) {
         for (int level = levels.first; level <= levels.last; ++level) {
-            Case& the_case = cases.emplace_back(experiment_case(name, level));
-            if (!split.empty()) {
-                the_case.split = split_from_name(split, the_case.dimension);
-            }
+            cases.push_back(experiment_case(name, level));
+            cases.back().split = split;
         }
     }
 }
@@ -112,10 +112,10 @@ std::vector<Case> cases_of(const StudyOptions& options) {
         fmt::format("cannot start a process for a level: {}: {}", what, std::strerror(errno)));
 }
 
-/// What a child has to say: its exit code as a first byte's worth of line, then the row or the complaint.
+/// How a child ended.
 struct Answer {
-    int status = 0; ///< as waitpid() has it
-    std::string text;
+    int status = 0;   ///< as waitpid() has it
+    std::string text; ///< the row, or what went wrong
 };
 
 void send(int to, const std::string& text) {
@@ -235,6 +235,9 @@ void print_row(const StudyRow& row) {
 
 void print_orders(const std::vector<StudyRow>& rows) {
     for (const StudySeries& series : series_of(rows)) {
+        if (series.size() < 2) {
+            continue;
+        }
         fmt::print("{} split {}: orders", series.front().experiment, series.front().split);
         for (std::size_t m = 0; m < study_measures.size(); ++m) {
             const auto order = order_of(series, m);

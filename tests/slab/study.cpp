@@ -11,7 +11,8 @@ using namespace slabhull;
 
 namespace {
 
-StudyRow row(const std::string& experiment, const std::string& split, int level, std::size_t cells, double error) {
+StudyRow row(const std::string& experiment, const std::string& split, int level, std::size_t cells,
+             double error) {
     StudyRow result;
     result.experiment = experiment;
     result.split = split;
@@ -23,7 +24,8 @@ StudyRow row(const std::string& experiment, const std::string& split, int level,
     for (std::size_t m = 0; m < study_measures.size(); ++m) {
         result.measured[m] = result.exact[m] * (1 + error * static_cast<double>(m + 1));
     }
-    result.seconds = {{"cap meshing", 1e-6 * static_cast<double>(cells)}, {"checking", 2e-6 * static_cast<double>(cells)}};
+    result.seconds = {{"cap meshing", 1e-6 * static_cast<double>(cells)},
+                      {"checking", 2e-6 * static_cast<double>(cells)}};
     result.cpu_seconds = 1e-5 * static_cast<double>(cells);
     result.peak_bytes = 100 * cells;
     result.mesher_peak_bytes = 10 * cells;
@@ -42,7 +44,8 @@ std::vector<StudyRow> rows_of_order_two(const std::string& split) {
 
 } // namespace
 
-TEST_CASE("a power law is found again, and there is none for one point or values that are not positive", "[study]") {
+TEST_CASE("a power law is found again, and there is none for one point or values that are not positive",
+          "[study]") {
     CHECK(power_law({{1, 3}, {10, 3 * std::pow(10, 1.5)}, {50, 3 * std::pow(50, 1.5)}}) ==
           std::optional{Approx(1.5).epsilon(1e-12)});
     CHECK(*power_law({{2, 8}, {4, 1}}) == Approx(-3));
@@ -118,9 +121,11 @@ TEST_CASE("splits are set side by side at the finest level that all have", "[stu
 TEST_CASE("a level is built, measured and counted", "[study]") {
     const StudyRow found = study_level(experiment_case("expanding-circle", 1), std::nullopt);
     CHECK(found.counts.cells == 2 * found.counts.vertices);
-    CHECK(found.cells_by_region[0] + found.cells_by_region[1] + found.cells_by_region[2] == found.counts.cells);
+    CHECK(found.cells_by_region[0] + found.cells_by_region[1] + found.cells_by_region[2] ==
+          found.counts.cells);
     CHECK(found.centres == found.layers * found.boundary_facets);
-    const auto angles = std::accumulate(found.side.histogram.begin(), found.side.histogram.end(), std::size_t{0});
+    const auto angles =
+        std::accumulate(found.side.histogram.begin(), found.side.histogram.end(), std::size_t{0});
     CHECK(angles == 3 * found.cells_by_region[1]);
     for (std::size_t m = 0; m < study_measures.size(); ++m) {
         CHECK(std::abs(found.error(m)) < 1e-3);
