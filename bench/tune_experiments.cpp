@@ -173,7 +173,7 @@ private:
     /// good enough, the one where those of the body and in time are nearest to proportion with those of level
     /// 1: then errors fall evenly. (Where none is good enough, the nearest.)
     double search(const HullCounts& paper) {
-        const double expected = first_ ? first_->refinement * scale_ : 1;
+        const double expected = first_ ? *first_ * scale_ : 1;
         const double width = first_ ? 0.15 : 0.5;
         double best = expected;
         double best_cost = 1e300;
@@ -187,18 +187,20 @@ private:
             }
         }
         if (!first_) {
-            first_ = First{best, divisions_of(experiment_at(name_, best))};
+            first_ = best;
         }
         return best;
     }
 
+    /// How far body and layers are from what they would be if they need not be whole: at the refinement that
+    /// the paper's counts ask for, seen from level 1, and for level 1 at its own.
     double unevenness(double refinement) const {
-        if (!first_) {
-            return 0;
-        }
+        constexpr double fine = 100;
+        const Divisions unrounded = divisions_of(experiment_at(name_, fine));
+        const double ideal = (first_ ? *first_ * scale_ : refinement) / fine;
         const Divisions now = divisions_of(experiment_at(name_, refinement));
-        return std::abs(now.body / (first_->divisions.body * scale_) - 1) +
-               std::abs(now.layers / (first_->divisions.layers * scale_) - 1);
+        return std::abs(now.body / (unrounded.body * ideal) - 1) +
+               std::abs(now.layers / (unrounded.layers * ideal) - 1);
     }
 
     /// Meshes the caps unless that takes too long; where the prediction was not good enough, searches again
@@ -248,16 +250,11 @@ private:
         std::fflush(stdout);
     }
 
-    struct First {
-        double refinement;
-        Divisions divisions;
-    };
-
     std::string name_;
     double most_cells_;
     CapCounts caps_;
-    double scale_ = 1;           ///< wanted refinement over that of level 1
-    std::optional<First> first_; ///< of level 1
+    double scale_ = 1;            ///< wanted refinement over that of level 1
+    std::optional<double> first_; ///< refinement of level 1
 };
 
 } // namespace

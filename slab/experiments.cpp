@@ -41,17 +41,17 @@ struct Experiment {
 };
 
 constexpr std::array circle_levels{
-    ExperimentLevel{0.749, {2714, 1357}},     ExperimentLevel{1.049, {5308, 2654}},
-    ExperimentLevel{1.385, {10022, 5011}},    ExperimentLevel{1.959, {20142, 10071}},
-    ExperimentLevel{2.775, {38792, 19396}},   ExperimentLevel{3.894, {76524, 38262}},
-    ExperimentLevel{5.545, {154570, 77285}},  ExperimentLevel{7.813, {305602, 152801}},
-    ExperimentLevel{11.080, {613418, 306709}}};
+    ExperimentLevel{0.749, {2714, 1357}},     ExperimentLevel{1.041, {5308, 2654}},
+    ExperimentLevel{1.386, {10022, 5011}},    ExperimentLevel{1.977, {20142, 10071}},
+    ExperimentLevel{2.795, {38792, 19396}},   ExperimentLevel{3.898, {76524, 38262}},
+    ExperimentLevel{5.551, {154570, 77285}},  ExperimentLevel{7.797, {305602, 152801}},
+    ExperimentLevel{11.058, {613418, 306709}}};
 constexpr std::array expanding_circle_levels{
     ExperimentLevel{0.749, {2696, 1348}},     ExperimentLevel{1.049, {5288, 2644}},
-    ExperimentLevel{1.400, {10016, 5008}},    ExperimentLevel{1.997, {20086, 10043}},
-    ExperimentLevel{2.819, {38734, 19367}},   ExperimentLevel{3.940, {76406, 38203}},
-    ExperimentLevel{5.565, {154362, 77181}},  ExperimentLevel{7.881, {305194, 152597}},
-    ExperimentLevel{11.176, {612452, 306226}}};
+    ExperimentLevel{1.397, {10016, 5008}},    ExperimentLevel{1.997, {20086, 10043}},
+    ExperimentLevel{2.819, {38734, 19367}},   ExperimentLevel{3.924, {76406, 38203}},
+    ExperimentLevel{5.554, {154362, 77181}},  ExperimentLevel{7.866, {305194, 152597}},
+    ExperimentLevel{11.154, {612452, 306226}}};
 constexpr std::array sphere_levels{
     ExperimentLevel{1.019, {144431, 30813}},      ExperimentLevel{1.412, {368587, 78637}},
     ExperimentLevel{1.947, {958500, 204440}},     ExperimentLevel{2.783, {2630598, 561013}},
@@ -74,7 +74,7 @@ constexpr std::array tandem_levels{
     ExperimentLevel{7.601, {278561736, 59127488}}};
 
 /// Of the plane ones, whose hulls have twice as many triangles as vertices whatever the spacings are.
-constexpr Spacings plane{0.15, 0.4, 0.3, 0.25};
+constexpr Spacings plane{0.1475, 0.4, 0.3, 0.25};
 
 constexpr std::array<Experiment, 6> experiments{{
     {"circle", "Circle in a square, at rest", 2, plane, plane, circle_levels},
