@@ -60,16 +60,16 @@ constexpr std::array sphere_levels{
 constexpr std::array expanding_sphere_levels{
     ExperimentLevel{1.019, {144345, 30801}},      ExperimentLevel{1.412, {368477, 78620}},
     ExperimentLevel{1.948, {958364, 204417}},     ExperimentLevel{2.781, {2630263, 560955}},
-    ExperimentLevel{3.901, {7126629, 1519159}},   ExperimentLevel{5.337, {19163704, 4087112}},
-    ExperimentLevel{7.742, {56114273, 11961083}}, ExperimentLevel{10.732, {149461495, 31878349}}};
+    ExperimentLevel{3.899, {7126629, 1519159}},   ExperimentLevel{5.344, {19163704, 4087112}},
+    ExperimentLevel{7.734, {56114273, 11961083}}, ExperimentLevel{10.824, {149461495, 31878349}}};
 constexpr std::array ellipsoid_levels{
     ExperimentLevel{1.042, {355798, 75655}},      ExperimentLevel{1.460, {944622, 200867}},
     ExperimentLevel{2.027, {2644079, 562277}},    ExperimentLevel{2.904, {7236458, 1538687}},
     ExperimentLevel{4.067, {20536468, 4365033}},  ExperimentLevel{5.683, {54872975, 11676192}},
     ExperimentLevel{8.145, {162044418, 34449255}}};
 constexpr std::array tandem_levels{
-    ExperimentLevel{0.942, {603432, 128055}},     ExperimentLevel{1.324, {1627918, 345616}},
-    ExperimentLevel{1.912, {4523078, 959759}},    ExperimentLevel{2.665, {12082322, 2566188}},
+    ExperimentLevel{0.959, {603432, 128055}},     ExperimentLevel{1.324, {1627918, 345616}},
+    ExperimentLevel{1.911, {4523078, 959759}},    ExperimentLevel{2.665, {12082322, 2566188}},
     ExperimentLevel{3.834, {35245617, 7478525}},  ExperimentLevel{5.326, {94464074, 20066876}},
     ExperimentLevel{7.601, {278561736, 59127488}}};
 
