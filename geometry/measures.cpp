@@ -213,6 +213,25 @@ private:
     AngleHistogram counts_{};
 };
 
+class AspectSums {
+public:
+    void add(double ratio) {
+        sum_.add(ratio);
+        largest_ = std::max(largest_, ratio);
+    }
+    void add(const AspectSums& other) {
+        sum_.add(other.sum_);
+        largest_ = std::max(largest_, other.largest_);
+    }
+    AspectRatios over(std::size_t count) const {
+        return {count == 0 ? 0 : sum_.value() / static_cast<double>(count), largest_};
+    }
+
+private:
+    Sum sum_;
+    double largest_ = 0;
+};
+
 class SolidSums {
 public:
     void add(double measure, const CosineRange& range) {
@@ -315,6 +334,45 @@ AngleHistogram angle_histogram(std::span<const Point<N>> points, std::span<const
         .value();
 }
 
+template<int D, int N>
+double aspect_ratio(const std::array<Point<N>, D + 1>& corners) {
+    double longest = 0;
+    for (std::size_t i = 0; i <= D; ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const auto edge = minus(corners[i], corners[j]);
+            longest = std::max(longest, dot(edge, edge));
+        }
+    }
+    // Heights are 1 / |gradient| of the barycentric coordinates, and the radius 1 / (sum of the |gradients|).
+    const GradientGram<D> gram = gradient_gram<D>(corners);
+    const auto first = minus(corners[1], corners[0]);
+    double determinant = 0; // of the edges' Gram matrix, by its first row
+    for (std::size_t j = 1; j <= D; ++j) {
+        determinant += dot(first, minus(corners[j], corners[0])) * gram[1][j];
+    }
+    if (!(determinant > 0)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    double inverse_radius = 0;
+    for (std::size_t i = 0; i <= D; ++i) {
+        inverse_radius += std::sqrt(std::max(0.0, gram[i][i]) / determinant);
+    }
+    return std::sqrt(longest) * inverse_radius / std::sqrt(2.0 * D * (D + 1));
+}
+
+template<int D, int N>
+AspectRatios aspect_ratios(std::span<const Point<N>> points, std::span<const Simplex<D>> cells) {
+    return sum_by_pieces(cells.size(), std::array<AspectSums, 1>{},
+                         [&](std::size_t c, std::array<AspectSums, 1>& to) {
+                             to[0].add(aspect_ratio<D, N>(corners_of<D, N>(cells[c], points)));
+                         })[0]
+        .over(cells.size());
+}
+
+template double aspect_ratio<2, 3>(const std::array<Point<3>, 3>&);
+template double aspect_ratio<3, 4>(const std::array<Point<4>, 4>&);
+template AspectRatios aspect_ratios<2, 3>(std::span<const Point<3>>, std::span<const Simplex<2>>);
+template AspectRatios aspect_ratios<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 template Point<2> simplex_normal<1>(const std::array<Point<2>, 2>&);
 template Point<3> simplex_normal<2>(const std::array<Point<3>, 3>&);
 template Point<4> simplex_normal<3>(const std::array<Point<4>, 4>&);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The six experiments of Anderson, Williams and Corrigan. One number per level, the refinement, sets the
-// three spacings (body, box, time) in fixed proportion; it was found by search so that the hull has the
-// paper's number of simplices.
-#include "slabhull/slab/case.h"
+// The six experiments of Anderson, Williams and Corrigan, with the counts of their tables. One number per
+// level, the refinement, sets the three spacings (body, box, time) in fixed proportion;
+// bench/tune_experiments found it, so that the hull has the paper's numbers of simplices and vertices.
+#include "slabhull/slab/experiments.h"
 
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/shapes.h"
@@ -35,26 +35,72 @@ struct Experiment {
     const char* name;
     const char* title;
     int dimension;
-    Spacings spacings;                  ///< at refinement 1
-    std::span<const double> refinement; ///< by level
+    Spacings mostly_side; ///< at refinement 1
+    Spacings mostly_caps;
+    std::span<const ExperimentLevel> levels;
 };
 
-constexpr std::array circle_levels{0.747, 1.046, 1.399, 1.959, 2.790, 3.906, 5.573, 7.802, 11.118};
-constexpr std::array expanding_circle_levels{0.748, 1.047, 1.396, 1.985, 2.814, 3.940, 5.621, 7.869, 11.155};
-constexpr std::array sphere_levels{1.040, 1.410, 1.950};
-constexpr std::array expanding_sphere_levels{1.050, 1.410, 1.960};
-constexpr std::array ellipsoid_levels{1.137, 1.614, 2.280};
-constexpr std::array tandem_levels{1.140, 1.612, 2.280};
+constexpr std::array circle_levels{
+    ExperimentLevel{0.749, {2714, 1357}},     ExperimentLevel{1.041, {5308, 2654}},
+    ExperimentLevel{1.386, {10022, 5011}},    ExperimentLevel{1.977, {20142, 10071}},
+    ExperimentLevel{2.795, {38792, 19396}},   ExperimentLevel{3.898, {76524, 38262}},
+    ExperimentLevel{5.551, {154570, 77285}},  ExperimentLevel{7.797, {305602, 152801}},
+    ExperimentLevel{11.058, {613418, 306709}}};
+constexpr std::array expanding_circle_levels{
+    ExperimentLevel{0.749, {2696, 1348}},     ExperimentLevel{1.049, {5288, 2644}},
+    ExperimentLevel{1.397, {10016, 5008}},    ExperimentLevel{1.997, {20086, 10043}},
+    ExperimentLevel{2.819, {38734, 19367}},   ExperimentLevel{3.924, {76406, 38203}},
+    ExperimentLevel{5.554, {154362, 77181}},  ExperimentLevel{7.866, {305194, 152597}},
+    ExperimentLevel{11.154, {612452, 306226}}};
+constexpr std::array sphere_levels{
+    ExperimentLevel{1.019, {144431, 30813}},      ExperimentLevel{1.412, {368587, 78637}},
+    ExperimentLevel{1.947, {958500, 204440}},     ExperimentLevel{2.783, {2630598, 561013}},
+    ExperimentLevel{3.895, {7127597, 1519319}},   ExperimentLevel{5.343, {19165615, 4087387}},
+    ExperimentLevel{7.733, {56118477, 11961783}}, ExperimentLevel{10.730, {149470428, 31879852}}};
+constexpr std::array expanding_sphere_levels{
+    ExperimentLevel{1.019, {144345, 30801}},      ExperimentLevel{1.412, {368477, 78620}},
+    ExperimentLevel{1.948, {958364, 204417}},     ExperimentLevel{2.781, {2630263, 560955}},
+    ExperimentLevel{3.899, {7126629, 1519159}},   ExperimentLevel{5.344, {19163704, 4087112}},
+    ExperimentLevel{7.734, {56114273, 11961083}}, ExperimentLevel{10.824, {149461495, 31878349}}};
+constexpr std::array ellipsoid_levels{
+    ExperimentLevel{1.042, {355798, 75655}},      ExperimentLevel{1.460, {944622, 200867}},
+    ExperimentLevel{2.027, {2644079, 562277}},    ExperimentLevel{2.904, {7236458, 1538687}},
+    ExperimentLevel{4.067, {20536468, 4365033}},  ExperimentLevel{5.683, {54872975, 11676192}},
+    ExperimentLevel{8.145, {162044418, 34449255}}};
+constexpr std::array tandem_levels{
+    ExperimentLevel{0.959, {603432, 128055}},     ExperimentLevel{1.324, {1627918, 345616}},
+    ExperimentLevel{1.911, {4523078, 959759}},    ExperimentLevel{2.665, {12082322, 2566188}},
+    ExperimentLevel{3.834, {35245617, 7478525}},  ExperimentLevel{5.326, {94464074, 20066876}},
+    ExperimentLevel{7.601, {278561736, 59127488}}};
+
+/// Of the plane ones, whose hulls have twice as many triangles as vertices whatever the spacings are.
+constexpr Spacings plane{0.1475, 0.4, 0.3, 0.25};
 
 constexpr std::array<Experiment, 6> experiments{{
-    {"circle", "Circle in a square, at rest", 2, {0.15, 0.4, 0.3, 0.25}, circle_levels},
-    {"expanding-circle", "Expanding circle in a square", 2, {0.15, 0.4, 0.3, 0.25}, expanding_circle_levels},
-    {"sphere", "Sphere in a cube, at rest", 3, {0.19, 0.7, 0.5, 0.25}, sphere_levels},
-    {"expanding-sphere", "Expanding sphere in a cube", 3, {0.19, 0.7, 0.5, 0.25}, expanding_sphere_levels},
-    {"ellipsoid", "Ellipsoid turning in a cube", 3, {0.3, 1.2, 0.6, 0.1}, ellipsoid_levels},
+    {"circle", "Circle in a square, at rest", 2, plane, plane, circle_levels},
+    {"expanding-circle", "Expanding circle in a square", 2, plane, plane, expanding_circle_levels},
+    {"sphere",
+     "Sphere in a cube, at rest",
+     3,
+     {0.189, 2.78, 0.12, 0.9},
+     {0.19, 0.7, 0.5, 0.25},
+     sphere_levels},
+    {"expanding-sphere",
+     "Expanding sphere in a cube",
+     3,
+     {0.189, 2.78, 0.12, 0.9},
+     {0.19, 0.7, 0.5, 0.25},
+     expanding_sphere_levels},
+    {"ellipsoid",
+     "Ellipsoid turning in a cube",
+     3,
+     {0.248, 2.6, 0.114, 0.9},
+     {0.3, 1.2, 0.6, 0.1},
+     ellipsoid_levels},
     {"tandem-ellipsoids",
      "Two ellipsoids turning against each other in a cube",
      3,
+     {0.2535, 2.66, 0.098, 0.9},
      {0.3, 1.2, 0.6, 0.1},
      tandem_levels},
 }};
@@ -114,14 +160,30 @@ BoxSpec centred_box(int dimension, double edge, double size) {
 
 } // namespace
 
-Case experiment_at(const std::string& name, double refinement) {
+std::span<const std::string> experiment_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const Experiment& experiment : experiments) {
+            all.emplace_back(experiment.name);
+        }
+        return all;
+    }();
+    return names;
+}
+
+std::span<const ExperimentLevel> experiment_levels(const std::string& name) {
+    return find_experiment(name).levels;
+}
+
+Case experiment_at(const std::string& name, double refinement, Bulk bulk) {
     const Experiment& experiment = find_experiment(name);
-    const Spacings at = experiment.spacings.divided_by(refinement);
+    const bool side = bulk == Bulk::side;
+    const Spacings at = (side ? experiment.mostly_side : experiment.mostly_caps).divided_by(refinement);
     Case result;
     result.title = experiment.title;
     result.dimension = experiment.dimension;
     result.experiment = name;
-    result.split = result.dimension == 3 ? Split::C : Split::centre;
+    result.split = result.dimension == 2 ? Split::centre : side ? Split::E : Split::C;
     result.layers = std::max(1, static_cast<int>(std::lround(1 / at.time)));
     result.cap_size = at.box;
     result.cap_growth = at.growth;
@@ -147,11 +209,11 @@ Case experiment_at(const std::string& name, double refinement) {
 
 Case experiment_case(const std::string& name, int level) {
     const Experiment& experiment = find_experiment(name);
-    const auto levels = static_cast<int>(experiment.refinement.size());
+    const auto levels = static_cast<int>(experiment.levels.size());
     if (level < 1 || level > levels) {
         throw UsageError(fmt::format("experiment \"{}\" has levels 1 to {}, not {}", name, levels, level));
     }
-    Case result = experiment_at(name, experiment.refinement[static_cast<std::size_t>(level - 1)]);
+    Case result = experiment_at(name, experiment.levels[static_cast<std::size_t>(level - 1)].refinement);
     result.title += fmt::format(", level {}", level);
     result.level = level;
     return result;

@@ -11,5 +11,6 @@ void add_check(CLI::App& program, int& exit_code);
 void add_convert(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
 void add_slice(CLI::App& program, int& exit_code);
+void add_study(CLI::App& program, int& exit_code);
 
 } // namespace slabhull::tools

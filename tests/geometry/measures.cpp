@@ -305,3 +305,28 @@ TEST_CASE("The histogram of angles counts each angle of each simplex, in its bin
     of_triangles[17] = 1;
     CHECK(angle_histogram<2, 3>(flat, triangles) == of_triangles);
 }
+
+TEST_CASE("the aspect ratio is 1 for regular simplices and longest edge over inscribed ball for others",
+          "[measures]") {
+    const double h = std::sqrt(3.0) / 2;
+    CHECK(aspect_ratio<2, 3>({Point<3>{0, 0, 7}, {1, 0, 7}, {0.5, h, 7}}) == Approx(1).epsilon(1e-14));
+    // 3, 4, 5: the inscribed circle has radius 1, that of the equilateral triangle is edge / (2 sqrt 3).
+    CHECK(aspect_ratio<2, 3>({Point<3>{0, 0, 0}, {0, 3, 0}, {0, 0, 4}}) ==
+          Approx(5 / (2 * std::sqrt(3.0))).epsilon(1e-14));
+    // Alternate corners of a cube of edge 1, one direction of which is turned into time.
+    CHECK(aspect_ratio<3, 4>({Point<4>{0, 0, 0, 0}, {1, 1, 0, 0}, {1, 0, 0, 1}, {0, 1, 0, 1}}) ==
+          Approx(1).epsilon(1e-14));
+    // The corner of a cube: inscribed radius 1 / (3 + sqrt 3), longest edge sqrt 2.
+    const std::vector<Point<4>> corner{{0, 0, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}, {9, 9, 9, 9}};
+    const double expected = std::sqrt(2.0) * (3 + std::sqrt(3.0)) / (2 * std::sqrt(6.0));
+    CHECK(aspect_ratio<3, 4>({corner[0], corner[1], corner[2], corner[3]}) ==
+          Approx(expected).epsilon(1e-14));
+    CHECK(std::isinf(aspect_ratio<2, 3>({Point<3>{0, 0, 0}, {1, 1, 1}, {2, 2, 2}})));
+
+    const std::vector<Simplex<3>> cells{{0, 1, 2, 3}, {0, 1, 2, 4}};
+    const double other = aspect_ratio<3, 4>({corner[0], corner[1], corner[2], corner[4]});
+    const AspectRatios ratios = aspect_ratios<3, 4>(corner, cells);
+    CHECK(ratios.mean == Approx((expected + other) / 2));
+    CHECK(ratios.largest == Approx(std::max(expected, other)));
+    CHECK(aspect_ratios<3, 4>(corner, {}).largest == 0);
+}

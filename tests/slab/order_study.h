@@ -3,10 +3,9 @@
 #pragma once
 
 #include "slabhull/slab/check.h"
+#include "slabhull/slab/exact_measures.h"
 #include "slabhull/slab/initial.h"
 #include "slabhull/slab/slab.h"
-
-#include "slab/exact.h"
 
 #include <array>
 #include <cmath>
@@ -20,6 +19,7 @@ inline constexpr std::array measure_names{"hull", "initial", "side", "terminatin
 
 struct ErrorRow {
     double cells;
+    double vertices;
     std::array<double, measure_names.size()> errors; ///< relative, with sign
 };
 
@@ -40,9 +40,10 @@ ErrorRow errors_of(const Case& the_case, const SpatialMesh<D>& initial, const Id
     if (!report.clean()) {
         throw std::runtime_error("the hull has defects");
     }
-    const auto exact = exact::measures(the_case.experiment);
+    const auto exact = exact_measures(the_case.experiment);
     const auto relative = [](double ours, double theirs) { return ours / theirs - 1; };
     return {static_cast<double>(report.counts.cells),
+            static_cast<double>(report.counts.vertices),
             {relative(report.measure, exact.hull()), relative(report.measure_by_region[0], exact.initial),
              relative(report.measure_by_region[1], exact.side),
              relative(report.measure_by_region[2], exact.terminating),
@@ -90,7 +91,7 @@ struct Movement {
 
 /// An experiment whose layers shrink in proportion to its edges, at any refinement that is a multiple of 1/4.
 inline Case proportional_case(const std::string& name, double refinement) {
-    Case the_case = experiment_at(name, refinement);
+    Case the_case = experiment_at(name, refinement, Bulk::caps);
     the_case.layers = static_cast<int>(std::lround(4 * refinement));
     return the_case;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/slice.h"
 
-#include "slab/exact.h"
 #include "slab/swept_grid.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/io/files.h"
+#include "slabhull/slab/exact_measures.h"
 #include "slabhull/slab/hull_files.h"
 #include "slabhull/slab/initial.h"
 #include "slabhull/slab/slab.h"
@@ -183,7 +183,7 @@ Hull<D> built(const Case& the_case) {
 
 /// An experiment with so many divisions of the body and layers, in a box meshed coarsely.
 Case refined(const std::string& experiment, int divisions, int layers) {
-    Case the_case = experiment_at(experiment, 0.3);
+    Case the_case = experiment_at(experiment, 0.3, Bulk::caps);
     auto& bodies = std::get<InitialBodies>(the_case.initial);
     for (EllipsoidBody& body : bodies.ellipsoids) {
         body.frequency = divisions;
@@ -211,7 +211,7 @@ ExactBody exact_body(const std::string& experiment, double time) {
     if (experiment.ends_with("circle")) {
         return {2 * pi * R, pi * R * R};
     }
-    return experiment == "ellipsoid" ? ExactBody{exact::turning_side({1, 3, 2}, 0), 8 * pi}
+    return experiment == "ellipsoid" ? ExactBody{turning_ellipsoid_measure({1, 3, 2}, 0), 8 * pi}
                                      : ExactBody{4 * pi * R * R, 4 * pi / 3 * R * R * R};
 }
 

@@ -37,6 +37,20 @@ using AngleHistogram = std::array<std::size_t, angle_bins>;
 template<int D, int N>
 AngleHistogram angle_histogram(std::span<const Point<N>> points, std::span<const Simplex<D>> cells);
 
+/// Longest edge over diameter of the inscribed ball, in proportion to that of the regular simplex: 1 for it,
+/// the larger the flatter, infinite for a simplex without measure. Time counts like a length.
+/// For (D, N) = (2, 3), (3, 4).
+template<int D, int N>
+double aspect_ratio(const std::array<Point<N>, D + 1>& corners);
+
+struct AspectRatios {
+    double mean = 0;
+    double largest = 0;
+};
+/// Of all simplices; zeros when there are none. The same for any number of threads.
+template<int D, int N>
+AspectRatios aspect_ratios(std::span<const Point<N>> points, std::span<const Simplex<D>> cells);
+
 /// The corners of a cell.
 template<int D, int N>
 std::array<Point<N>, D + 1> corners_of(const Simplex<D>& cell, std::span<const Point<N>> points) {
@@ -89,6 +103,10 @@ extern template AngleRange dihedral_angles<3, 4>(const std::array<Point<4>, 4>&)
 extern template AngleHistogram angle_histogram<2, 3>(std::span<const Point<3>>, std::span<const Simplex<2>>);
 extern template AngleHistogram angle_histogram<3, 3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
 extern template AngleHistogram angle_histogram<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>);
+extern template double aspect_ratio<2, 3>(const std::array<Point<3>, 3>&);
+extern template double aspect_ratio<3, 4>(const std::array<Point<4>, 4>&);
+extern template AspectRatios aspect_ratios<2, 3>(std::span<const Point<3>>, std::span<const Simplex<2>>);
+extern template AspectRatios aspect_ratios<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 extern template Measures<2> measure_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
 extern template Measures<3> measure_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 extern template std::vector<Measures<2>> measure_groups<2>(std::span<const Point<3>>,

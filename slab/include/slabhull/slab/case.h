@@ -161,7 +161,14 @@ Case read_case(const std::filesystem::path& path);
 /// Throws UsageError naming the experiments or the levels that there are.
 Case experiment_case(const std::string& name, int level);
 
-/// The same with any refinement: the spacings of body, box and time are divided by it.
-Case experiment_at(const std::string& name, double refinement);
+/// Where most simplices of a hull of an experiment in space are (the plane ones have one set of spacings).
+enum class Bulk {
+    side, ///< as in the paper: many layers in split E, caps that are coarse inside
+    caps  ///< the caps' meshing is nearly all the work: few layers in split C, caps that are fine inside
+};
+
+/// The same with any refinement: the spacings of body, box and time are divided by it. For `Bulk::side`,
+/// refinements of about 1 are level 1.
+Case experiment_at(const std::string& name, double refinement, Bulk bulk = Bulk::side);
 
 } // namespace slabhull
