@@ -20,10 +20,13 @@ struct TrackPoint {
 template<int D>
 std::vector<TrackPoint> sorted_track_points(const HullView<D>& view) {
     std::vector<TrackPoint> on_tracks;
+    on_tracks.reserve(static_cast<std::size_t>(
+        std::count_if(view.track.begin(), view.track.end(), [](TrackId track) { return track >= 0; })));
     for (std::size_t v = 0; v < view.track.size(); ++v) {
-        if (view.track[v] >= 0) {
+        const TrackId track = view.track[v];
+        if (track >= 0) {
             const auto vertex = static_cast<Index>(v);
-            on_tracks.push_back({view.track[v], view.time_of(vertex), vertex});
+            on_tracks.push_back({track, view.time_of(vertex), vertex});
         }
     }
     std::sort(on_tracks.begin(), on_tracks.end(), [](const TrackPoint& a, const TrackPoint& b) {
