@@ -224,8 +224,13 @@ HullColumns<D> columns_of(const Hull<D>& hull) {
             }
         }};
     columns.neighbor_table = hull.neighbors;
-    columns.vertex_id = Column<std::int64_t>::over(std::span{std::as_const(hull.vertex_ids)});
-    columns.track_id = Column<std::int64_t>::over(std::span{std::as_const(hull.track_ids)});
+    const auto ids = [](const IdRuns& list) {
+        return Column<std::int64_t>{
+            list.size(), 1,
+            [&list](std::size_t begin, std::size_t end, std::int64_t* out) { list.copy(begin, end, out); }};
+    };
+    columns.vertex_id = ids(hull.vertex_ids);
+    columns.track_id = ids(hull.track_ids);
     columns.patches = hull.patches;
     columns.time = hull.time;
     return columns;

@@ -89,7 +89,7 @@ constexpr std::size_t cells_per_piece = 1 << 14;
 /// layers over one facet.
 template<int D>
 Rulings<D> patches_of_facets(const HullView<D>& view) {
-    constexpr std::size_t block = std::size_t{1} << 22;
+    constexpr std::size_t block = std::size_t{1} << 20;
     Rulings<D> all;
     for (std::size_t first = 0; first < view.cells().size(); first += block) {
         const std::size_t count = std::min(block, view.cells().size() - first);
