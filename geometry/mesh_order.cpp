@@ -6,8 +6,11 @@
 #include "slabhull/core/parallel.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace slabhull {
 
@@ -18,31 +21,68 @@ constexpr std::size_t grain = 1 << 14;
 /// A place along the curve, and who is there.
 using Keyed = std::pair<std::uint64_t, Index>;
 
-/// Sorts pieces, then merges them by twos.
-void sort_by_place(Array<Keyed>& keyed) {
-    const auto at = [&keyed](std::size_t i) { return keyed.begin() + static_cast<std::ptrdiff_t>(i); };
-    parallel_for(keyed.size(), grain,
-                 [&](std::size_t begin, std::size_t end) { std::sort(at(begin), at(end)); });
-    for (std::size_t width = grain; width < keyed.size(); width *= 2) {
-        parallel_for(keyed.size(), 2 * width, [&](std::size_t begin, std::size_t end) {
-            std::inplace_merge(at(begin), at(std::min(begin + width, end)), at(end));
-        });
-    }
-}
+/// Things in stretches of the curve, by number in each.
+struct Stretches {
+    Array<Index> members;
+    std::vector<std::size_t> begin; ///< of each stretch, and one past the last
+};
 
-/// `count` things by their places along the curve; what is in one place by number.
+/// Two passes of counting sort by the leading bits of the places. Each thread takes one part of the things
+/// and has its own counters.
 template<class Place>
-Array<Index> sorted_along_curve(std::size_t count, const Place& place) {
-    Array<Keyed> keyed(count);
-    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+Stretches sort_into_stretches(std::size_t count, const Place& place) {
+    constexpr std::size_t wanted_members = 256;
+    constexpr int most_bits = 16;
+    const int bits = std::min(most_bits, static_cast<int>(std::bit_width(count / wanted_members)));
+    const auto stretch_of = [&place, bits](std::size_t k) { return bits == 0 ? 0 : place(k) >> (64 - bits); };
+    const std::size_t stretches = std::size_t{1} << bits;
+    const auto parts = static_cast<std::size_t>(thread_count());
+    const std::size_t part_size = std::max<std::size_t>(1, (count + parts - 1) / parts);
+    std::vector<std::size_t> next(parts * stretches, 0); // by part and stretch
+    parallel_for(count, part_size, [&](std::size_t begin, std::size_t end) {
+        std::size_t* const counts = next.data() + begin / part_size * stretches;
         for (std::size_t k = begin; k < end; ++k) {
-            keyed[k] = {place(k), static_cast<Index>(k)};
+            ++counts[stretch_of(k)];
         }
     });
-    sort_by_place(keyed);
-    Array<Index> order(count);
-    std::transform(keyed.begin(), keyed.end(), order.begin(), [](const auto& entry) { return entry.second; });
-    return order;
+    Stretches result{Array<Index>(count), std::vector<std::size_t>(stretches + 1, count)};
+    std::size_t sum = 0;
+    for (std::size_t s = 0; s < stretches; ++s) {
+        result.begin[s] = sum;
+        for (std::size_t k = s; k < next.size(); k += stretches) {
+            sum += std::exchange(next[k], sum);
+        }
+    }
+    parallel_for(count, part_size, [&](std::size_t begin, std::size_t end) {
+        std::size_t* const places = next.data() + begin / part_size * stretches;
+        for (std::size_t k = begin; k < end; ++k) {
+            result.members[places[stretch_of(k)]++] = static_cast<Index>(k);
+        }
+    });
+    return result;
+}
+
+/// `count` things by their places along the curve; what is in one place by number. Places are listed for one
+/// stretch at a time.
+template<class Place>
+Array<Index> sorted_along_curve(std::size_t count, const Place& place) {
+    constexpr std::size_t stretches_per_piece = 16;
+    Stretches stretches = sort_into_stretches(count, place);
+    parallel_for(stretches.begin.size() - 1, stretches_per_piece, [&](std::size_t first, std::size_t last) {
+        std::vector<Keyed> keyed;
+        for (std::size_t s = first; s < last; ++s) {
+            const std::span<Index> members{stretches.members.data() + stretches.begin[s],
+                                           stretches.begin[s + 1] - stretches.begin[s]};
+            keyed.clear();
+            for (const Index k : members) {
+                keyed.emplace_back(place(k), k);
+            }
+            std::sort(keyed.begin(), keyed.end());
+            std::transform(keyed.begin(), keyed.end(), members.begin(),
+                           [](const Keyed& entry) { return entry.second; });
+        }
+    });
+    return std::move(stretches.members);
 }
 
 /// From old numbers to new ones.

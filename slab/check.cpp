@@ -32,7 +32,7 @@ public:
             return std::move(report_);
         }
         if (view_.hull.track_id.given()) {
-            view_.track = read_column<TrackId>(view_.hull.track_id);
+            view_.track = read_ids(view_.hull.track_id);
         }
         const bool finite = check_finite<D + 1>(view_.points(), findings_);
         examine_connectivity();
@@ -47,7 +47,7 @@ public:
 
 private:
     void examine_connectivity() {
-        view_.adjacency = build_adjacency<D>(view_.cells(), view_.points().size());
+        find_adjacency();
         const ManifoldReport manifold = examine_manifold<D>(view_.cells(), view_.points().size(),
                                                             view_.adjacency, {options_.most_findings});
         translate(manifold, {}, findings_);
@@ -56,6 +56,18 @@ private:
         sealed_ = view_.adjacency.defects.empty();
         if (options_.betti_cells > 0) {
             examine_homology();
+        }
+    }
+
+    /// A table of neighbours that lies in memory serves when it turns out to be right; else one is made.
+    void find_adjacency() {
+        const std::span<const Neighbors<D>> table = view_.hull.neighbor_table;
+        confirmed_ = confirms_adjacency<D>(view_.cells(), view_.points().size(), table);
+        if (confirmed_) {
+            view_.adjacency = AdjacencyView<D>{table};
+        } else {
+            adjacency_ = build_adjacency<D>(view_.cells(), view_.points().size());
+            view_.adjacency = adjacency_;
         }
     }
 
@@ -77,7 +89,7 @@ private:
         if (view_.hull.vertex_id.given()) {
             check_vertex_ids(view_, findings_);
         }
-        if (view_.hull.neighbors.given()) {
+        if (view_.hull.neighbors.given() && !confirmed_) {
             check_neighbors(view_, findings_);
         }
         if (view_.hull.cell_of_vertex.given()) {
@@ -179,6 +191,8 @@ private:
     HullReport report_;
     Findings findings_;
     HullView<D> view_;
+    Adjacency<D> adjacency_; ///< empty when that of the hull serves
+    bool confirmed_ = false; ///< the hull's table of neighbours is right
     bool manifold_ = false;
     bool sealed_ = false; ///< every facet in two cells that agree
 };
@@ -209,8 +223,14 @@ HullColumns<D> columns_of(const Hull<D>& hull) {
                 }
             }
         }};
-    columns.vertex_id = Column<std::int64_t>::over(std::span{std::as_const(hull.vertex_ids)});
-    columns.track_id = Column<std::int64_t>::over(std::span{std::as_const(hull.track_ids)});
+    columns.neighbor_table = hull.neighbors;
+    const auto ids = [](const IdRuns& list) {
+        return Column<std::int64_t>{
+            list.size(), 1,
+            [&list](std::size_t begin, std::size_t end, std::int64_t* out) { list.copy(begin, end, out); }};
+    };
+    columns.vertex_id = ids(hull.vertex_ids);
+    columns.track_id = ids(hull.track_ids);
     columns.patches = hull.patches;
     columns.time = hull.time;
     return columns;

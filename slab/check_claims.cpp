@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <mutex>
 #include <utility>
 
 namespace slabhull {
@@ -20,60 +22,89 @@ void check_length(Column<std::int64_t>& column, const char* name, std::size_t ro
     column = {};
 }
 
-/// A cell's times and the layer it is said to be in.
-struct LayerCell {
-    std::int64_t layer;
-    std::array<double, 2> span;
-    Index cell;
-};
+/// How often cells begin or end at each time.
+using TimeCounts = std::map<double, std::size_t>;
+
+/// The cells of a layer by their first and by their last times.
+using LayerTimes = std::array<TimeCounts, 2>;
+
+using Layers = std::map<std::int64_t, LayerTimes>;
+
+void add(LayerTimes& sum, const LayerTimes& more) {
+    for (std::size_t end = 0; end < 2; ++end) {
+        for (const auto& [time, count] : more[end]) {
+            sum[end][time] += count;
+        }
+    }
+}
+
+/// What holds for the claim of a side cell; others are reported as such.
+bool is_side_layer(std::int64_t claimed) {
+    return claimed >= 0;
+}
 
 template<int D>
-std::vector<LayerCell> side_by_layer(const HullView<D>& view, Findings& findings) {
-    std::vector<LayerCell> side;
-    each_row(view.hull.layer, [&](std::size_t c, const std::int64_t* claimed) {
-        if (view.in_cap(c) ? *claimed != -1 : *claimed < 0) {
-            findings.cell(Defect::wrong_layer, static_cast<Index>(c),
-                          fmt::format("layer {} {}", *claimed, view.in_cap(c) ? "in a cap" : "on the side"));
-        } else if (!view.in_cap(c)) {
-            side.push_back({*claimed, view.span_of(c), static_cast<Index>(c)});
+Layers collect_layers(const HullView<D>& view) {
+    constexpr std::size_t grain = 1 << 16;
+    Layers layers;
+    std::mutex lock;
+    parallel_for(view.cells().size(), grain, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::int64_t> claimed(end - begin);
+        view.hull.layer.fill(begin, end, claimed.data());
+        Layers found;
+        for (std::size_t c = begin; c < end; ++c) {
+            if (!view.in_cap(c) && is_side_layer(claimed[c - begin])) {
+                LayerTimes& layer = found[claimed[c - begin]];
+                const std::array<double, 2> span = view.span_of(c);
+                ++layer[0][span[0] + 0.0]; // 0.0 and -0.0 are one time
+                ++layer[1][span[1] + 0.0];
+            }
+        }
+        const std::lock_guard guard{lock};
+        for (const auto& [layer, times] : found) {
+            add(layers[layer], times);
         }
     });
-    std::stable_sort(side.begin(), side.end(),
-                     [](const LayerCell& a, const LayerCell& b) { return a.layer < b.layer; });
-    return side;
+    return layers;
 }
 
-/// The most frequent first (end = 0) or last (end = 1) time: cells that do not belong do not move it.
-double commonest_time(std::span<const LayerCell> layer, std::size_t end) {
-    std::vector<double> times;
-    for (const LayerCell& cell : layer) {
-        times.push_back(cell.span[end]);
-    }
-    std::sort(times.begin(), times.end());
-    double commonest = times.front();
-    std::size_t most = 0;
-    for (auto run = times.begin(); run != times.end();) {
-        const auto next = std::upper_bound(run, times.end(), *run);
-        if (static_cast<std::size_t>(next - run) > most) {
-            most = static_cast<std::size_t>(next - run);
-            commonest = *run;
-        }
-        run = next;
-    }
-    return commonest;
+/// The most frequent: cells that do not belong do not move it.
+double commonest(const TimeCounts& times) {
+    return std::max_element(times.begin(), times.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
 }
 
-/// Returns the layer's times.
-std::array<double, 2> check_layer(std::span<const LayerCell> layer, Findings& findings) {
-    const std::array<double, 2> times{commonest_time(layer, 0), commonest_time(layer, 1)};
-    for (const LayerCell& cell : layer) {
-        if (cell.span[0] < times[0] || cell.span[1] > times[1]) {
-            findings.cell(Defect::wrong_layer, cell.cell,
-                          fmt::format("its times [{}, {}] are not within [{}, {}] of layer {}", cell.span[0],
-                                      cell.span[1], times[0], times[1], cell.layer));
-        }
+template<int D>
+void report_layers_of_wrong_regions(const HullView<D>& view, Findings& findings) {
+    const auto bad = select_rows(view.hull.layer, [&](std::size_t c, const std::int64_t* claimed) {
+        return view.in_cap(c) ? *claimed != -1 : !is_side_layer(*claimed);
+    });
+    for (const Index c : bad) {
+        findings.cell(Defect::wrong_layer, c,
+                      fmt::format("layer {} {}", row_of(view.hull.layer, c)[0],
+                                  view.in_cap(c) ? "in a cap" : "on the side"));
     }
-    return times;
+}
+
+using LayerSpans = std::map<std::int64_t, std::array<double, 2>>;
+
+/// Side cells whose times are not within those of their layer, by layer.
+template<int D>
+std::multimap<std::int64_t, Index> cells_out_of_layer(const HullView<D>& view, const LayerSpans& spans) {
+    const auto bad = select_rows(view.hull.layer, [&](std::size_t c, const std::int64_t* claimed) {
+        if (view.in_cap(c) || !is_side_layer(*claimed)) {
+            return false;
+        }
+        const std::array<double, 2>& layer = spans.at(*claimed);
+        const std::array<double, 2> span = view.span_of(c);
+        return span[0] < layer[0] || span[1] > layer[1];
+    });
+    std::multimap<std::int64_t, Index> by_layer;
+    for (const Index c : bad) {
+        by_layer.emplace(row_of(view.hull.layer, c)[0], c);
+    }
+    return by_layer;
 }
 
 void report_gap(std::int64_t layer, const std::string& detail, Findings& findings) {
@@ -95,23 +126,31 @@ void check_column_lengths(HullColumns<D>& hull, Findings& findings) {
 
 template<int D>
 std::size_t check_layers(const HullView<D>& view, Findings& findings) {
-    const std::vector<LayerCell> side = side_by_layer(view, findings);
+    report_layers_of_wrong_regions(view, findings);
+    LayerSpans spans;
+    for (const auto& [layer, times] : collect_layers(view)) {
+        spans[layer] = {commonest(times[0]), commonest(times[1])};
+    }
+    const auto out_of_layer = cells_out_of_layer(view, spans);
     std::int64_t layers = 0;
     double reached = view.time[0];
-    for (auto run = side.begin(); run != side.end();) {
-        const auto end =
-            std::find_if(run, side.end(), [&](const LayerCell& c) { return c.layer != run->layer; });
-        const std::array<double, 2> times = check_layer({run, end}, findings);
-        if (run->layer != layers) {
+    for (const auto& [layer, times] : spans) {
+        const auto [begin, end] = out_of_layer.equal_range(layer);
+        for (auto cell = begin; cell != end; ++cell) {
+            const std::array<double, 2> span = view.span_of(cell->second);
+            findings.cell(Defect::wrong_layer, cell->second,
+                          fmt::format("its times [{}, {}] are not within [{}, {}] of layer {}", span[0],
+                                      span[1], times[0], times[1], layer));
+        }
+        if (layer != layers) {
             report_gap(layers, "no cell is in it", findings);
         } else if (times[0] != reached) {
             report_gap(layers, fmt::format("starts at t = {}, not at {}", times[0], reached), findings);
         }
-        layers = run->layer + 1;
+        layers = layer + 1;
         reached = times[1];
-        run = end;
     }
-    if (!side.empty() && reached != view.time[1]) {
+    if (!spans.empty() && reached != view.time[1]) {
         report_gap(layers - 1, fmt::format("ends at t = {}, not at the slab's end {}", reached, view.time[1]),
                    findings);
     }
@@ -120,7 +159,10 @@ std::size_t check_layers(const HullView<D>& view, Findings& findings) {
 
 template<int D>
 void check_vertex_ids(const HullView<D>& view, Findings& findings) {
-    const auto ids = read_column<PersistentId>(view.hull.vertex_id);
+    const IdRuns ids = read_ids(view.hull.vertex_id);
+    if (ids.empty() || (ids[0] >= 0 && ids.ascending())) {
+        return; // as they come from a march: no need to sort
+    }
     std::vector<Index> order(ids.size());
     for (std::size_t v = 0; v < ids.size(); ++v) {
         order[v] = static_cast<Index>(v);
@@ -144,32 +186,44 @@ void check_vertex_ids(const HullView<D>& view, Findings& findings) {
 
 template<int D>
 void check_neighbors(const HullView<D>& view, Findings& findings) {
-    each_row(view.hull.neighbors, [&](std::size_t c, const std::int64_t* claimed) {
+    // A facet without a neighbour is reported as open or overfull.
+    const auto differs = [&](std::size_t c, std::size_t i, std::int64_t claimed) {
+        const Index actual = view.adjacency.neighbors[c][i];
+        return actual != no_index && claimed != std::int64_t{actual};
+    };
+    const auto bad = select_rows(view.hull.neighbors, [&](std::size_t c, const std::int64_t* claimed) {
+        bool any = false;
         for (std::size_t i = 0; i <= D; ++i) {
-            const Index actual = view.adjacency.neighbors[c][i];
-            if (actual == no_index || claimed[i] == std::int64_t{actual}) {
-                continue; // a facet without a neighbour is reported as open or overfull
-            }
-            const std::array<Index, 2> both{static_cast<Index>(c), actual};
-            findings.cells(
-                Defect::wrong_neighbor, both,
-                fmt::format("across facet {} the array says {}, the facet says another", i, claimed[i]));
+            any = any || differs(c, i, claimed[i]);
         }
+        return any;
     });
+    for (const Index c : bad) {
+        const std::vector<std::int64_t> claimed = row_of(view.hull.neighbors, c);
+        for (std::size_t i = 0; i <= D; ++i) {
+            if (differs(c, i, claimed[i])) {
+                const std::array<Index, 2> both{c, view.adjacency.neighbors[c][i]};
+                findings.cells(
+                    Defect::wrong_neighbor, both,
+                    fmt::format("across facet {} the array says {}, the facet says another", i, claimed[i]));
+            }
+        }
+    }
 }
 
 template<int D>
 void check_cell_of_vertex(const HullView<D>& view, Findings& findings) {
-    each_row(view.hull.cell_of_vertex, [&](std::size_t v, const std::int64_t* claimed) {
+    const auto bad = select_rows(view.hull.cell_of_vertex, [&](std::size_t v, const std::int64_t* claimed) {
         const bool exists = *claimed >= 0 && static_cast<std::size_t>(*claimed) < view.cells().size();
         const auto uses = [&](const Simplex<D>& cell) {
             return std::find(cell.begin(), cell.end(), static_cast<Index>(v)) != cell.end();
         };
-        if (!exists || !uses(view.cells()[static_cast<std::size_t>(*claimed)])) {
-            findings.vertex(Defect::wrong_vertex_cell, static_cast<Index>(v),
-                            fmt::format("{} is not a cell that uses it", *claimed));
-        }
+        return !exists || !uses(view.cells()[static_cast<std::size_t>(*claimed)]);
     });
+    for (const Index v : bad) {
+        findings.vertex(Defect::wrong_vertex_cell, v,
+                        fmt::format("{} is not a cell that uses it", row_of(view.hull.cell_of_vertex, v)[0]));
+    }
 }
 
 template void check_column_lengths<2>(HullColumns<2>&, Findings&);

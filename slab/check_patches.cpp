@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <mutex>
 #include <utility>
 
 namespace slabhull {
@@ -43,29 +44,85 @@ struct Vote {
     friend auto operator<=>(const Vote&, const Vote&) = default;
 };
 
-/// Votes of the cells that have all tracks of a facet, by facet; and of the other side cells. Cells of a side
-/// that is not made of prisms may have no vote.
+/// The patch of a facet or a part of one, by its tracks.
 template<int D>
-struct Votes {
-    std::vector<Vote<D>> full;
-    std::vector<Vote<D>> partial;
+struct Ruling {
+    TrackSet<D> tracks;
+    PatchNumber patch;
+    friend auto operator<=>(const Ruling&, const Ruling&) = default;
 };
 
 template<int D>
-Votes<D> collect_votes(const HullView<D>& view) {
-    Votes<D> votes;
-    each_row(view.hull.patch, [&](std::size_t c, const std::int64_t* patch) {
+using Rulings = std::vector<Ruling<D>>;
+
+/// Calls full(vote) for side cells that have all tracks of a facet, and partial(vote) for the others, in
+/// [begin, end). Cells of a side that is not made of prisms may have no vote.
+template<int D, class Full, class Partial>
+void each_vote(const HullView<D>& view, std::size_t begin, std::size_t end, const Full& full,
+               const Partial& partial) {
+    std::vector<std::int64_t> patch(end - begin);
+    view.hull.patch.fill(begin, end, patch.data());
+    for (std::size_t c = begin; c < end; ++c) {
+        if (view.in_cap(c) || patch[c - begin] <= 0) {
+            continue; // a patch that is wrong by itself is reported as such
+        }
         std::size_t size = 0;
-        if (view.in_cap(c) || *patch <= 0) {
-            return; // a patch that is wrong by itself is reported as such
-        }
         const TrackSet<D> tracks = tracks_of(view, c, size);
-        if (size >= 1 && size <= D) {
-            (size == D ? votes.full : votes.partial)
-                .push_back({tracks, static_cast<PatchNumber>(*patch), static_cast<Index>(c)});
+        const Vote<D> vote{tracks, static_cast<PatchNumber>(patch[c - begin]), static_cast<Index>(c)};
+        if (size == D) {
+            full(vote);
+        } else if (size >= 1 && size < D) {
+            partial(vote);
         }
-    });
-    std::sort(votes.full.begin(), votes.full.end());
+    }
+}
+
+template<class T>
+void sort_out(std::vector<T>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+constexpr std::size_t cells_per_piece = 1 << 14;
+
+/// The patches of facets, without the cells that say so: a block of cells after the other, as there are many
+/// layers over one facet.
+template<int D>
+Rulings<D> patches_of_facets(const HullView<D>& view) {
+    constexpr std::size_t block = std::size_t{1} << 20;
+    Rulings<D> all;
+    for (std::size_t first = 0; first < view.cells().size(); first += block) {
+        const std::size_t count = std::min(block, view.cells().size() - first);
+        std::vector<Rulings<D>> pieces((count + cells_per_piece - 1) / cells_per_piece);
+        parallel_for(count, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+            Rulings<D>& piece = pieces[begin / cells_per_piece];
+            each_vote(
+                view, first + begin, first + end,
+                [&](const Vote<D>& vote) {
+                    piece.push_back({vote.tracks, vote.patch});
+                },
+                [](const Vote<D>&) {});
+            sort_out(piece);
+        });
+        const std::size_t known = all.size();
+        for (const Rulings<D>& piece : pieces) {
+            all.insert(all.end(), piece.begin(), piece.end());
+        }
+        if (all.size() > known) {
+            sort_out(all);
+        }
+    }
+    return all;
+}
+
+/// Where facets have different patches: all votes about facets, sorted.
+template<int D>
+std::vector<Vote<D>> full_votes(const HullView<D>& view) {
+    std::vector<Vote<D>> votes;
+    each_vote(
+        view, 0, view.cells().size(), [&](const Vote<D>& vote) { votes.push_back(vote); },
+        [](const Vote<D>&) {});
+    std::sort(votes.begin(), votes.end());
     return votes;
 }
 
@@ -94,76 +151,154 @@ void report_disunity(std::span<const Vote<D>> column, Findings& findings) {
 
 /// The patches of the facets that each set of tracks is part of.
 template<int D>
-std::vector<std::pair<TrackSet<D>, PatchNumber>> patches_of_parts(const std::vector<Vote<D>>& full) {
-    std::vector<std::pair<TrackSet<D>, PatchNumber>> parts;
-    for (std::size_t v = 0; v < full.size(); ++v) {
-        const Vote<D>& vote = full[v];
-        if (v > 0 && vote.tracks == full[v - 1].tracks && vote.patch == full[v - 1].patch) {
-            continue;
-        }
+Rulings<D> patches_of_parts(const Rulings<D>& facets) {
+    Rulings<D> parts;
+    parts.reserve(facets.size() * ((1u << D) - 2));
+    for (const Ruling<D>& facet : facets) {
         for (unsigned chosen = 1; chosen + 1 < 1u << D; ++chosen) {
             TrackSet<D> part;
             part.fill(no_track);
             for (std::size_t k = 0, place = 0; k < D; ++k) {
                 if ((chosen >> k & 1u) != 0) {
-                    part[place++] = vote.tracks[k];
+                    part[place++] = facet.tracks[k];
                 }
             }
-            parts.emplace_back(part, vote.patch);
+            parts.push_back({part, facet.patch});
         }
     }
-    std::sort(parts.begin(), parts.end());
-    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    sort_out(parts);
     return parts;
+}
+
+/// Looks rulings up; remembers some that it found, as many cells in a row ask for the same few.
+template<int D>
+class RulingFinder {
+public:
+    explicit RulingFinder(const Rulings<D>& all) : all_{all}, seen_(1 << 10) {}
+
+    bool has(const Ruling<D>& wanted) {
+        Ruling<D>& seen = seen_[hash(wanted) % seen_.size()];
+        if (seen != wanted) {
+            if (!std::binary_search(all_.begin(), all_.end(), wanted)) {
+                return false;
+            }
+            seen = wanted;
+        }
+        return true;
+    }
+
+private:
+    static std::size_t hash(const Ruling<D>& ruling) {
+        auto sum = static_cast<std::uint64_t>(ruling.patch);
+        for (const TrackId track : ruling.tracks) {
+            sum = (sum ^ static_cast<std::uint64_t>(track)) * 0x9E3779B97F4A7C15u;
+            sum ^= sum >> 32;
+        }
+        return sum;
+    }
+
+    const Rulings<D>& all_;
+    Rulings<D> seen_; ///< at first of patch 0, which nobody asks for
+};
+
+/// Cells whose tracks are part of no facet of their patch, ascending.
+template<int D>
+std::vector<Vote<D>> partial_votes_without(const HullView<D>& view, const Rulings<D>& parts) {
+    std::vector<std::vector<Vote<D>>> pieces((view.cells().size() + cells_per_piece - 1) / cells_per_piece);
+    parallel_for(view.cells().size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+        RulingFinder<D> finder{parts};
+        each_vote(
+            view, begin, end, [](const Vote<D>&) {},
+            [&](const Vote<D>& vote) {
+                if (!finder.has({vote.tracks, vote.patch})) {
+                    pieces[begin / cells_per_piece].push_back(vote);
+                }
+            });
+    });
+    std::vector<Vote<D>> all;
+    for (const std::vector<Vote<D>>& piece : pieces) {
+        all.insert(all.end(), piece.begin(), piece.end());
+    }
+    return all;
+}
+
+/// How often each patch is claimed for side cells, and the first such cell.
+struct PatchUse {
+    std::size_t cells = 0;
+    Index first = no_index;
+};
+
+template<int D>
+std::map<std::int64_t, PatchUse> count_side_patches(const HullView<D>& view) {
+    std::map<std::int64_t, PatchUse> all;
+    std::mutex lock;
+    parallel_for(view.cells().size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::int64_t> patch(end - begin);
+        view.hull.patch.fill(begin, end, patch.data());
+        std::map<std::int64_t, PatchUse> found;
+        for (std::size_t c = begin; c < end; ++c) {
+            if (!view.in_cap(c) && patch[c - begin] > 0) {
+                PatchUse& use = found[patch[c - begin]];
+                use.first = std::min(use.first, static_cast<Index>(c));
+                ++use.cells;
+            }
+        }
+        const std::lock_guard guard{lock};
+        for (const auto& [number, use] : found) {
+            PatchUse& sum = all[number];
+            sum.cells += use.cells;
+            sum.first = std::min(sum.first, use.first);
+        }
+    });
+    return all;
 }
 
 } // namespace
 
 template<int D>
 std::vector<PatchCount> check_patches(const HullView<D>& view, Findings& findings) {
-    std::map<PatchNumber, std::size_t> counts;
-    const PatchList& patches = view.hull.patches;
-    each_row(view.hull.patch, [&](std::size_t c, const std::int64_t* claimed) {
-        const auto cell = static_cast<Index>(c);
-        if (view.in_cap(c) ? *claimed != 0 : *claimed <= 0) {
-            findings.cell(Defect::wrong_patch, cell,
-                          fmt::format("patch {} {}", *claimed, view.in_cap(c) ? "in a cap" : "on the side"));
-            return;
-        }
-        if (view.in_cap(c)) {
-            return;
-        }
-        const auto number = static_cast<PatchNumber>(*claimed);
-        const bool is_new = ++counts[number] == 1;
-        const bool known = std::any_of(patches.begin(), patches.end(),
-                                       [&](const Patch& patch) { return patch.number == *claimed; });
-        if (is_new && !patches.empty() && !known) {
-            findings.other(Defect::unknown_patch, {{"patch", *claimed, {}}},
-                           fmt::format("patch {} is not in the list of patches", *claimed));
-        }
+    const auto wrong = select_rows(view.hull.patch, [&](std::size_t c, const std::int64_t* claimed) {
+        return view.in_cap(c) ? *claimed != 0 : *claimed <= 0;
     });
-    std::vector<PatchCount> result;
-    for (const auto& [number, cells] : counts) {
-        result.push_back({number, cells});
+    for (const Index c : wrong) {
+        findings.cell(Defect::wrong_patch, c,
+                      fmt::format("patch {} {}", row_of(view.hull.patch, c)[0],
+                                  view.in_cap(c) ? "in a cap" : "on the side"));
     }
-    return result;
+    std::vector<PatchCount> counts;
+    std::map<Index, std::int64_t> unknown; // by the first cell
+    for (const auto& [number, use] : count_side_patches(view)) {
+        const PatchList& patches = view.hull.patches;
+        const bool known = std::any_of(patches.begin(), patches.end(),
+                                       [n = number](const Patch& patch) { return patch.number == n; });
+        if (!patches.empty() && !known) {
+            unknown.emplace(use.first, number);
+        }
+        counts.push_back({static_cast<PatchNumber>(number), use.cells});
+    }
+    for (const auto& [cell, number] : unknown) {
+        findings.other(Defect::unknown_patch, {{"patch", number, {}}},
+                       fmt::format("patch {} is not in the list of patches", number));
+    }
+    return counts;
 }
 
 template<int D>
 void check_patch_columns(const HullView<D>& view, Findings& findings) {
-    const Votes<D> votes = collect_votes(view);
-    for (auto run = votes.full.begin(); run != votes.full.end();) {
-        const auto end = std::find_if(run, votes.full.end(),
-                                      [&](const Vote<D>& vote) { return vote.tracks != run->tracks; });
-        report_disunity<D>({run, end}, findings);
-        run = end;
-    }
-    const auto parts = patches_of_parts<D>(votes.full);
-    for (const Vote<D>& vote : votes.partial) {
-        if (!std::binary_search(parts.begin(), parts.end(), std::pair{vote.tracks, vote.patch})) {
-            findings.cell(Defect::patch_mismatch, vote.cell,
-                          fmt::format("in patch {}, which no boundary facet below it has", vote.patch));
+    const Rulings<D> facets = patches_of_facets(view);
+    const auto same_facet = [](const Ruling<D>& a, const Ruling<D>& b) { return a.tracks == b.tracks; };
+    if (std::adjacent_find(facets.begin(), facets.end(), same_facet) != facets.end()) {
+        const std::vector<Vote<D>> votes = full_votes(view);
+        for (auto run = votes.begin(); run != votes.end();) {
+            const auto end = std::find_if(run, votes.end(),
+                                          [&](const Vote<D>& vote) { return vote.tracks != run->tracks; });
+            report_disunity<D>({run, end}, findings);
+            run = end;
         }
+    }
+    for (const Vote<D>& vote : partial_votes_without<D>(view, patches_of_parts<D>(facets))) {
+        findings.cell(Defect::patch_mismatch, vote.cell,
+                      fmt::format("in patch {}, which no boundary facet below it has", vote.patch));
     }
 }
 

@@ -71,24 +71,25 @@ void find_regions(HullView<D>& view) {
 
 template<int D>
 void compare_regions(const HullView<D>& view, Findings& findings) {
-    each_row(view.hull.region, [&](std::size_t c, const std::int64_t* claimed) {
-        if (*claimed == view.region[c]) {
-            return;
-        }
-        const bool cap_claimed = *claimed == 0 || *claimed == 2;
+    const auto bad = select_rows(view.hull.region, [&](std::size_t c, const std::int64_t* claimed) {
+        return *claimed != view.region[c];
+    });
+    for (const Index c : bad) {
+        const std::int64_t claimed = row_of(view.hull.region, c)[0];
+        const bool cap_claimed = claimed == 0 || claimed == 2;
         if (cap_claimed && !view.in_cap(c)) {
             const auto [first, last] = view.span_of(c);
             findings.cell(
-                Defect::cap_not_flat, static_cast<Index>(c),
+                Defect::cap_not_flat, c,
                 fmt::format("said to be in the {}, which is at t = {}, but its vertices have t = {} to {}",
-                            region_names[static_cast<std::size_t>(*claimed)],
-                            view.time[*claimed == 0 ? 0 : 1], first, last));
+                            region_names[static_cast<std::size_t>(claimed)], view.time[claimed == 0 ? 0 : 1],
+                            first, last));
         } else {
-            findings.cell(Defect::wrong_region, static_cast<Index>(c),
+            findings.cell(Defect::wrong_region, c,
                           fmt::format("said to be in region {}, but its vertices' times put it in the {}",
-                                      *claimed, region_names[view.region[c]]));
+                                      claimed, region_names[view.region[c]]));
         }
-    });
+    }
 }
 
 template<int D>

@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <cmath>
+#include <mutex>
 
 namespace slabhull {
 
@@ -44,6 +45,36 @@ std::uint64_t fingerprint(const std::array<double, N>& point) {
         hash = (std::rotl(hash, 25) ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15u;
     }
     return hash ^ hash >> 32;
+}
+
+/// Points of different classes are not compared, so that few are listed at once. Not worth it for few points.
+std::size_t fingerprint_classes(std::size_t points) {
+    constexpr std::size_t few = 1 << 16;
+    return points < few ? 1 : 16;
+}
+
+/// Pairs of a vertex and the first one with the same coordinates, of one class by their fingerprints.
+template<int N>
+std::vector<std::array<Index, 2>> coincident_in_class(std::span<const Point<N>> points, std::size_t which,
+                                                      std::size_t classes) {
+    Array<std::pair<std::uint64_t, Index>> order;
+    order.reserve(points.size() / classes * 9 / 8);
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        const std::uint64_t print = fingerprint(points[v]);
+        if (print % classes == which) {
+            order.emplace_back(print, static_cast<Index>(v));
+        }
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::array<Index, 2>> pairs;
+    for (std::size_t first = 0, k = 1; k < order.size(); ++k) {
+        if (order[k].first != order[first].first || points[order[k].second] != points[order[first].second]) {
+            first = k;
+        } else {
+            pairs.push_back({order[first].second, order[k].second});
+        }
+    }
+    return pairs;
 }
 
 Defect defect_of(ManifoldDefect what) {
@@ -99,21 +130,14 @@ bool check_finite(std::span<const Point<N>> points, Findings& findings) {
 
 template<int N>
 void check_coincident(std::span<const Point<N>> points, Findings& findings) {
-    Array<std::pair<std::uint64_t, Index>> order(points.size());
-    parallel_for(points.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) {
-            order[v] = {fingerprint(points[v]), static_cast<Index>(v)};
-        }
+    std::vector<std::array<Index, 2>> pairs;
+    std::mutex lock;
+    const std::size_t classes = fingerprint_classes(points.size());
+    parallel_for(classes, 1, [&](std::size_t which, std::size_t) {
+        const auto found = coincident_in_class<N>(points, which, classes);
+        const std::lock_guard guard{lock};
+        pairs.insert(pairs.end(), found.begin(), found.end());
     });
-    std::sort(order.begin(), order.end());
-    std::vector<std::array<Index, 2>> pairs; // a vertex and the first of the same coordinates
-    for (std::size_t first = 0, k = 1; k < order.size(); ++k) {
-        if (order[k].first != order[first].first || points[order[k].second] != points[order[first].second]) {
-            first = k;
-        } else {
-            pairs.push_back({order[first].second, order[k].second});
-        }
-    }
     std::sort(pairs.begin(), pairs.end());
     for (const std::array<Index, 2>& pair : pairs) {
         const std::vector<Entity> names = findings.vertex_entities(pair);

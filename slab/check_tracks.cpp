@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <tuple>
 
 namespace slabhull {
@@ -17,15 +18,53 @@ struct TrackPoint {
     friend auto operator<=>(const TrackPoint&, const TrackPoint&) = default;
 };
 
-template<int D>
-std::vector<TrackPoint> sorted_track_points(const HullView<D>& view) {
-    std::vector<TrackPoint> on_tracks;
-    for (std::size_t v = 0; v < view.track.size(); ++v) {
-        if (view.track[v] >= 0) {
-            const auto vertex = static_cast<Index>(v);
-            on_tracks.push_back({view.track[v], view.time_of(vertex), vertex});
+/// Calls visit(place, id) for all of a list.
+template<class Visit>
+void each_id(const IdRuns& ids, const Visit& visit) {
+    constexpr std::size_t batch = 1 << 12;
+    std::array<std::int64_t, batch> values;
+    for (std::size_t begin = 0; begin < ids.size(); begin += batch) {
+        const std::size_t end = std::min(ids.size(), begin + batch);
+        ids.copy(begin, end, values.data());
+        for (std::size_t k = begin; k < end; ++k) {
+            visit(k, values[k - begin]);
         }
     }
+}
+
+/// First and last track of some parts into which the tracks' range is cut, so that few are listed at once.
+std::vector<std::array<TrackId, 2>> parts_of_range(const IdRuns& tracks) {
+    constexpr TrackId count = 8;
+    TrackId first = std::numeric_limits<TrackId>::max();
+    TrackId last = no_track;
+    each_id(tracks, [&](std::size_t, TrackId track) {
+        first = track >= 0 ? std::min(first, track) : first;
+        last = std::max(last, track);
+    });
+    std::vector<std::array<TrackId, 2>> parts;
+    if (last >= 0) {
+        const TrackId width = (last - first) / count + 1;
+        for (; last - first >= width; first += width) {
+            parts.push_back({first, first + width - 1});
+        }
+        parts.push_back({first, last});
+    }
+    return parts;
+}
+
+template<int D>
+std::vector<TrackPoint> sorted_track_points(const HullView<D>& view, const std::array<TrackId, 2>& part) {
+    const auto wanted = [&](TrackId track) { return part[0] <= track && track <= part[1]; };
+    std::size_t count = 0;
+    each_id(view.track, [&](std::size_t, TrackId track) { count += wanted(track) ? 1 : 0; });
+    std::vector<TrackPoint> on_tracks;
+    on_tracks.reserve(count);
+    each_id(view.track, [&](std::size_t v, TrackId track) {
+        if (wanted(track)) {
+            const auto vertex = static_cast<Index>(v);
+            on_tracks.push_back({track, view.time_of(vertex), vertex});
+        }
+    });
     std::sort(on_tracks.begin(), on_tracks.end(), [](const TrackPoint& a, const TrackPoint& b) {
         return std::tie(a.track, a.time, a.vertex) < std::tie(b.track, b.time, b.vertex);
     });
@@ -109,12 +148,14 @@ void check_cap_vertices(const HullView<D>& view, const std::vector<std::uint8_t>
 
 template<int D>
 void check_tracks(const HullView<D>& view, Findings& findings) {
-    const std::vector<TrackPoint> points = sorted_track_points(view);
-    for (auto run = points.begin(); run != points.end();) {
-        const auto end =
-            std::find_if(run, points.end(), [&](const TrackPoint& p) { return p.track != run->track; });
-        check_track({run, end}, view.time, findings);
-        run = end;
+    for (const std::array<TrackId, 2>& part : parts_of_range(view.track)) {
+        const std::vector<TrackPoint> points = sorted_track_points(view, part);
+        for (auto run = points.begin(); run != points.end();) {
+            const auto end =
+                std::find_if(run, points.end(), [&](const TrackPoint& p) { return p.track != run->track; });
+            check_track({run, end}, view.time, findings);
+            run = end;
+        }
     }
 }
 

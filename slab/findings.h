@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slabhull/core/column.h"
+#include "slabhull/core/id_runs.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/slab/check.h"
 
@@ -74,6 +75,35 @@ std::vector<Index> select(std::size_t count, const Predicate& bad) {
     return all;
 }
 
+/// The rows of a column for which bad(row, values) holds, ascending; asked in parallel.
+template<class Predicate>
+std::vector<Index> select_rows(const Column<std::int64_t>& column, const Predicate& bad) {
+    constexpr std::size_t grain = 1 << 14;
+    const auto width = static_cast<std::size_t>(column.components());
+    std::vector<std::vector<Index>> pieces((column.rows() + grain - 1) / grain);
+    parallel_for(column.rows(), grain, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::int64_t> values((end - begin) * width);
+        column.fill(begin, end, values.data());
+        for (std::size_t row = begin; row < end; ++row) {
+            if (bad(row, values.data() + (row - begin) * width)) {
+                pieces[begin / grain].push_back(static_cast<Index>(row));
+            }
+        }
+    });
+    std::vector<Index> all;
+    for (const std::vector<Index>& piece : pieces) {
+        all.insert(all.end(), piece.begin(), piece.end());
+    }
+    return all;
+}
+
+/// One row of a column.
+inline std::vector<std::int64_t> row_of(const Column<std::int64_t>& column, std::size_t row) {
+    std::vector<std::int64_t> values(static_cast<std::size_t>(column.components()));
+    column.fill(row, row + 1, values.data());
+    return values;
+}
+
 /// Calls visit(row, values) for each row of a column, without holding more than a few of them.
 template<class Visit>
 void each_row(const Column<std::int64_t>& column, const Visit& visit) {
@@ -96,6 +126,13 @@ Array<T> read_column(const Column<std::int64_t>& column) {
     each_row(column,
              [&](std::size_t row, const std::int64_t* value) { values[row] = static_cast<T>(*value); });
     return values;
+}
+
+/// All of a column of ids or tracks.
+inline IdRuns read_ids(const Column<std::int64_t>& column) {
+    IdRuns ids;
+    each_row(column, [&](std::size_t, const std::int64_t* value) { ids.push_back(*value); });
+    return ids;
 }
 
 } // namespace slabhull

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <memory>
+#include <mutex>
 
 namespace slabhull {
 
@@ -56,6 +58,14 @@ Column<std::int64_t> ids(const Array<std::int64_t>& values) {
     return Column<std::int64_t>::over(std::span<const std::int64_t>{values});
 }
 
+/// Those from `first` on.
+Column<std::int64_t> ids(const IdRuns& values, std::size_t first = 0) {
+    return {values.size() - first, 1,
+            [&values, first](std::size_t begin, std::size_t end, std::int64_t* out) {
+                values.copy(first + begin, first + end, out);
+            }};
+}
+
 template<int D>
 Array<Index> a_cell_of_each_point(const Hull<D>& hull) {
     Array<Index> cell(hull.points.size());
@@ -65,6 +75,34 @@ Array<Index> a_cell_of_each_point(const Hull<D>& hull) {
         }
     }
     return cell;
+}
+
+/// The first cell of each point: listed when a writer comes to it, and forgotten when it has asked for all.
+template<int D>
+Column<std::int64_t> cells_of_points(const Hull<D>& hull) {
+    struct List {
+        std::mutex lock;
+        Array<Index> cell;
+        std::size_t told = 0;
+    };
+    const auto list = std::make_shared<List>();
+    const std::size_t count = hull.points.size();
+    return {count, 1, [&hull, list, count](std::size_t begin, std::size_t end, std::int64_t* out) {
+                {
+                    const std::lock_guard guard{list->lock};
+                    if (list->cell.empty()) {
+                        list->cell = a_cell_of_each_point(hull);
+                    }
+                }
+                std::copy(list->cell.begin() + static_cast<std::ptrdiff_t>(begin),
+                          list->cell.begin() + static_cast<std::ptrdiff_t>(end), out);
+                const std::lock_guard guard{list->lock};
+                list->told += end - begin;
+                if (list->told == count) {
+                    list->cell = {};
+                    list->told = 0;
+                }
+            }};
 }
 
 DataArray number_field(std::string name, Array<std::int64_t> values) {
@@ -100,11 +138,10 @@ template<int D>
 void write_hull_vtu(io::AtomicFile& file, const Hull<D>& hull, const io::WriteOptions& options) {
     MeshColumns mesh = mesh_columns(hull);
     const std::size_t cells = hull.cells.size();
-    const Array<Index> cell = a_cell_of_each_point(hull);
     mesh.point_data = {{"t", Scalar::float64, times_of(hull)},
                        {"vertex_id", Scalar::int64, ids(hull.vertex_ids)},
                        {"track_id", Scalar::int64, ids(hull.track_ids)},
-                       {"cell", Scalar::int64, Column<std::int64_t>::over(std::span<const Index>{cell})}};
+                       {"cell", Scalar::int64, cells_of_points(hull)}};
     const auto region = [&hull](std::size_t c) { return static_cast<int>(hull.region(c)); };
     const auto patch = [&hull](std::size_t c) { return hull.patch(c); };
     const auto layer = [&hull](std::size_t c) { return hull.layer(c); };
@@ -306,6 +343,28 @@ void write_cap(io::AtomicFile& file, const SpatialMesh<D>& cap, double time) {
 }
 
 template<int D>
+void write_terminating_cap(io::AtomicFile& file, const Hull<D>& hull) {
+    const std::size_t first_point = hull.terminating_points_begin();
+    const std::size_t first_cell = hull.terminating_begin();
+    MeshColumns mesh;
+    mesh.dimension = D;
+    mesh.points = {hull.points.size() - first_point, 3,
+                   [&hull, first_point](std::size_t begin, std::size_t end, double* out) {
+                       for (std::size_t v = first_point + begin; v < first_point + end; ++v) {
+                           for (std::size_t k = 0; k < 3; ++k) {
+                               *out++ = k < D ? hull.points[v][k] : 0.0;
+                           }
+                       }
+                   }};
+    mesh.cells = index_rows(std::span<const Simplex<D>>{hull.cells}.subspan(first_cell),
+                            -static_cast<std::int64_t>(first_point));
+    mesh.point_data = {{"vertex_id", Scalar::int64, ids(hull.vertex_ids, first_point)},
+                       {"track_id", Scalar::int64, ids(hull.track_ids, first_point)}};
+    mesh.field_data = {{"time", 1, Array<double>{hull.time[1]}}, number_field("dimension", {D})};
+    io::write_vtu(file, mesh);
+}
+
+template<int D>
 SpatialMesh<D> read_cap(const std::filesystem::path& path) {
     const io::Soup soup = io::read_vtu(path);
     MeshArrays<D> mesh = mesh_of_soup<D>(soup);
@@ -414,6 +473,8 @@ template void write_hull<2>(io::AtomicFile&, const Hull<2>&, const std::string&,
 template void write_hull<3>(io::AtomicFile&, const Hull<3>&, const std::string&, const io::WriteOptions&);
 template void write_cap<2>(io::AtomicFile&, const SpatialMesh<2>&, double);
 template void write_cap<3>(io::AtomicFile&, const SpatialMesh<3>&, double);
+template void write_terminating_cap<2>(io::AtomicFile&, const Hull<2>&);
+template void write_terminating_cap<3>(io::AtomicFile&, const Hull<3>&);
 template SpatialMesh<2> read_cap<2>(const std::filesystem::path&);
 template SpatialMesh<3> read_cap<3>(const std::filesystem::path&);
 template void write_section<2>(io::AtomicFile&, const Section<2>&);

@@ -15,10 +15,10 @@ namespace slabhull {
 template<int D>
 struct HullView {
     HullColumns<D> hull;
-    Adjacency<D> adjacency;
+    AdjacencyView<D> adjacency;
     std::array<double, 2> time{};
     Array<std::uint8_t> region; ///< of each cell, as its vertices' times show it
-    Array<TrackId> track;       ///< of each vertex; empty when not given
+    IdRuns track;               ///< of each vertex; empty when not given
 
     std::span<const Point<D + 1>> points() const { return hull.points; }
     std::span<const Simplex<D>> cells() const { return hull.cells; }

@@ -21,11 +21,19 @@ MarchState<D> march_from(SpatialMesh<D> cap, double time, const IdCounter& ids) 
 }
 
 template<int D>
-Slab<D> March<D>::propose(std::vector<double> times, StageClock& clock) const {
+void March<D>::require_times(const std::vector<double>& times) const {
     if (times.size() < 2 || times.front() != state_.time || !(times.front() < times.back())) {
         throw UsageError(
             fmt::format("a slab must go from the march's time, {}, to a later one", state_.time));
     }
+    if (state_.cap.points.empty()) {
+        throw UsageError("the march has given its initial cap up for a slab that was not accepted");
+    }
+}
+
+template<int D>
+Slab<D> March<D>::propose(std::vector<double> times, StageClock& clock) const {
+    require_times(times);
     return build_slab<D>(state_.cap, state_.slab, std::move(times), settings_, state_.ids, clock);
 }
 
@@ -36,16 +44,25 @@ Slab<D> March<D>::propose(std::vector<double> times) const {
 }
 
 template<int D>
+Slab<D> March<D>::build(std::vector<double> times, StageClock& clock) {
+    require_times(times);
+    return build_slab<D>(std::move(state_.cap), state_.slab, std::move(times), settings_, state_.ids, clock);
+}
+
+template<int D>
 void March<D>::accept(Slab<D>&& slab) {
     if (slab.hull.slab != state_.slab || slab.hull.time[0] != state_.time || slab.hull.vertex_ids.empty() ||
-        slab.hull.vertex_ids[0] != state_.cap.vertex_ids[0]) {
+        slab.hull.vertex_ids[0] != first_id_) {
         throw UsageError(
             fmt::format("slab {} from t = {} was not proposed by this march, which is at slab {} "
                         "and t = {}",
                         slab.hull.slab, slab.hull.time[0], state_.slab, state_.time));
     }
-    state_.cap = std::move(slab.terminating);
     state_.time = slab.hull.time[1];
+    state_.cap = {}; // before the next one is made
+    state_.cap = slab.terminating();
+    slab.hull = {};
+    first_id_ = first_id();
     state_.ids = slab.next_ids;
     ++state_.slab;
 }

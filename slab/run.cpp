@@ -35,6 +35,30 @@ Json seconds_as_json(const StageClock& clock) {
     return seconds;
 }
 
+/// Each stage in parts of the time that the cap was meshed, and all of them; empty where no cap was.
+Json shares_as_json(const StageClock& clock) {
+    double meshing = 0;
+    double all = 0;
+    for (const auto& [stage, passed] : clock.stages()) {
+        meshing += stage == "cap meshing" ? passed : 0;
+        all += passed;
+    }
+    Json shares = Json::object();
+    if (meshing > 0) {
+        for (const auto& [stage, passed] : clock.stages()) {
+            if (stage != "cap meshing") {
+                shares[stage] = passed / meshing;
+            }
+        }
+        shares["all"] = (all - meshing) / meshing;
+    }
+    return shares;
+}
+
+Json peaks_as_json() {
+    return {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};
+}
+
 Json settings_as_json(const Case& the_case) {
     return {{"title", the_case.title},
             {"dimension", the_case.dimension},
@@ -155,7 +179,7 @@ private:
         listener_.progress(fmt::format("slab {} from t = {:.6g}", number, time),
                            (time - case_.start) / (case_.end - case_.start));
         StageClock clock;
-        Slab<D> slab = propose(clock);
+        Slab<D> slab = build(clock);
         SlabFiles files;
         begin_writing(slab, files); // the disk is slow: it works while the hull is checked
         const HullReport checked = check_hull<D>(columns_of(slab.hull));
@@ -189,12 +213,12 @@ private:
     }
 
     /// The slab as planned or, if the case wants it, as much of it as is not tangled.
-    Slab<D> propose(StageClock& clock) {
+    Slab<D> build(StageClock& clock) {
         const double begin = march_->state().time;
         const double floor = case_.adapt_floor * (case_.end - case_.start) / case_.slabs;
         for (double end = case_.slab_end(begin);;) {
             try {
-                return march_->propose(case_.level_times(begin, end), clock);
+                return march_->build(case_.level_times(begin, end), clock);
             } catch (const TangledBoundary& tangled) {
                 if (!case_.adapt) {
                     throw;
@@ -228,7 +252,7 @@ private:
             write_hull(*files.open[i], slab.hull, case_.formats[i], case_.writing_of(case_.formats[i]));
             files.open[i]->finish();
         }
-        write_cap(*files.open.back(), slab.terminating, slab.hull.time[1]);
+        write_terminating_cap(*files.open.back(), slab.hull);
         files.open.back()->finish();
     }
 
@@ -261,7 +285,10 @@ private:
             json["cap"]["angle_when_moved"] = *slab.moved_angle;
         }
         json["seconds"] = seconds_as_json(clock);
-        json["peak_memory"] = {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};
+        json["beside_cap_meshing"] = shares_as_json(clock);
+        json["peak_memory"] = peaks_as_json();
+        json["peak_memory"]["bytes_per_cell"] =
+            static_cast<double>(peak_memory()) / static_cast<double>(slab.hull.cells.size());
         return json;
     }
 
@@ -281,7 +308,7 @@ private:
                                                                   {"tolerance", match.tolerance},
                                                                   {"largest_distance", match.largest}};
         }
-        head["peak_memory"] = {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};
+        head["peak_memory"] = peaks_as_json();
         io::AtomicFile file{path_of("report.json")};
         write_report(head, file);
         file.commit();

@@ -31,18 +31,19 @@ CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const 
 } // namespace
 
 template<int D>
-Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double> times,
+Slab<D> build_slab(CapToStitch<D> initial, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock) {
     Slab<D> slab;
-    Sweep<D> sweep = sweep_boundary<D>(initial, settings.motions, settings.motion_start, std::move(times),
-                                       settings.trajectory);
+    Sweep<D> sweep = sweep_boundary<D>(initial.mesh(), settings.motions, settings.motion_start,
+                                       std::move(times), settings.trajectory);
     clock.book("trajectories");
     require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
     clock.book("boundary check");
-    CapMesh<D> mesh = make_cap<D>(initial, sweep, settings, slab, clock);
+    CapMesh<D> mesh = make_cap<D>(initial.mesh(), sweep, settings, slab, clock);
     IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
-    slab.terminating = terminating_cap<D>(initial, sweep, std::move(mesh), ids);
-    slab.hull = stitch<D>(initial, sweep, slab.terminating, settings.side, side_ids);
+    SpatialMesh<D> terminating = terminating_cap<D>(initial.mesh(), sweep, std::move(mesh), ids);
+    slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
+    slab.terminating_facets = std::move(sweep.surface.facets);
     slab.hull.slab = number;
     slab.projected = std::move(sweep.projected);
     slab.next_ids = ids;
@@ -50,9 +51,9 @@ Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double
     return slab;
 }
 
-template Slab<2> build_slab<2>(const SpatialMesh<2>&, int, std::vector<double>, const SlabSettings<2>&,
-                               IdCounter, StageClock&);
-template Slab<3> build_slab<3>(const SpatialMesh<3>&, int, std::vector<double>, const SlabSettings<3>&,
-                               IdCounter, StageClock&);
+template Slab<2> build_slab<2>(CapToStitch<2>, int, std::vector<double>, const SlabSettings<2>&, IdCounter,
+                               StageClock&);
+template Slab<3> build_slab<3>(CapToStitch<3>, int, std::vector<double>, const SlabSettings<3>&, IdCounter,
+                               StageClock&);
 
 } // namespace slabhull

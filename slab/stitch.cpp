@@ -38,20 +38,26 @@ Point<D + 1> at_time(const Point<D>& x, double t) {
 template<int D>
 class Stitcher {
 public:
-    Stitcher(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SpatialMesh<D>& terminating,
+    Stitcher(CapToStitch<D>& initial, const Sweep<D>& sweep, CapToStitch<D>& terminating,
              const SideOptions& options, IdCounter& ids)
         : initial_{initial}, sweep_{sweep}, terminating_{terminating}, options_{options}, ids_{ids},
           recipe_{recipe_of(options.split)}, templates_{templates_of<D>(options.split)},
-          graph_{connect_prisms<D>(sweep.surface, recipe_)}, vertices_{initial.points.size(), sweep, graph_,
-                                                                       recipe_} {}
+          graph_{connect_prisms<D>(sweep.surface, recipe_)}, vertices_{initial.mesh().points.size(), sweep,
+                                                                       graph_, recipe_} {}
 
+    /// The caps go first: memory of the hull is taken when it is written to, and theirs may be given back.
     Hull<D> run() {
         describe();
-        place_vertices();
-        place_cap_cells(initial_, 0, 0);
+        const Array<CellFacet> initial_boundary = boundary_of_cap(initial_.mesh());
+        const Array<CellFacet> terminating_boundary = boundary_of_cap(terminating_.mesh());
+        name_vertices();
+        place_cap(initial_, 0, 0, 0, sweep_.times.front());
+        place_cap(terminating_, hull_.terminating_begin(), hull_.terminating_points_begin(),
+                  static_cast<Index>(vertices_.end()), sweep_.times.back());
+        place_side_vertices();
         place_side_cells();
-        place_cap_cells(terminating_, hull_.terminating_begin(), static_cast<Index>(vertices_.end()));
-        join_caps();
+        join_cap(initial_boundary, 0, 0, Template::bottom);
+        join_cap(terminating_boundary, hull_.terminating_begin(), hull_.layers - 1, Template::top);
         return std::move(hull_);
     }
 
@@ -59,60 +65,85 @@ private:
     using Template = PrismTemplate<D>;
 
     void describe() {
-        hull_.initial_cells = initial_.cells.size();
+        hull_.initial_points = initial_.mesh().points.size();
+        hull_.side_points = vertices_.end() - vertices_.begin();
+        hull_.initial_cells = initial_.mesh().cells.size();
         hull_.layers = sweep_.layers();
         hull_.cells_per_prism = static_cast<std::size_t>(simplices_per_prism(options_.split));
         hull_.side_cells = hull_.layers * graph_.facets() * hull_.cells_per_prism;
         hull_.facet_patch = sweep_.surface.patch;
         hull_.patches = sweep_.surface.patches;
         hull_.time = {sweep_.times.front(), sweep_.times.back()};
-        const std::size_t points = vertices_.end() + terminating_.points.size();
-        const std::size_t cells = hull_.terminating_begin() + terminating_.cells.size();
+        const std::size_t points = vertices_.end() + terminating_.mesh().points.size();
+        const std::size_t cells = hull_.terminating_begin() + terminating_.mesh().cells.size();
         checked_index(points, "hull vertices");
         checked_index(cells, "hull cells");
         hull_.points.resize(points);
-        hull_.vertex_ids.resize(points);
-        hull_.track_ids.resize(points);
         hull_.cells.resize(cells);
         hull_.neighbors.resize(cells);
     }
 
-    void place_vertices() {
-        place_cap_vertices(initial_, 0, sweep_.times.front());
-        name_side_vertices();
+    /// Ids of the side are new; of its vertices those on levels have tracks.
+    void name_vertices() {
+        const SpatialMesh<D>& initial = initial_.mesh();
+        hull_.vertex_ids.append(initial.vertex_ids);
+        hull_.track_ids.append(initial.track_ids);
+        hull_.vertex_ids.append_run(ids_.take(hull_.side_points), hull_.side_points, 1);
+        const std::size_t centres =
+            (hull_.side_points - (sweep_.layers() - 1) * sweep_.tracks.size()) / sweep_.layers();
+        for (std::size_t layer = 0; layer < sweep_.layers(); ++layer) {
+            if (layer > 0) {
+                hull_.track_ids.append(sweep_.tracks);
+            }
+            hull_.track_ids.append_run(no_track, centres, 0);
+        }
+        hull_.vertex_ids.append(terminating_.mesh().vertex_ids);
+        hull_.track_ids.append(terminating_.mesh().track_ids);
+    }
+
+    void place_cap(CapToStitch<D>& cap, std::size_t first_cell, std::size_t first_point, Index first_vertex,
+                   double t) {
+        cap.release(&SpatialMesh<D>::vertex_ids);
+        cap.release(&SpatialMesh<D>::track_ids);
+        for_each_index(cap.mesh().points.size(), items_per_piece, [&](std::size_t v) {
+            hull_.points[first_point + v] = at_time<D>(cap.mesh().points[v], t);
+        });
+        cap.release(&SpatialMesh<D>::points);
+        const bool looks_back = first_cell == 0; // in time, so that its cells turn over
+        place_rows(cap.mesh().cells, hull_.cells, first_cell, first_vertex, looks_back);
+        cap.release(&SpatialMesh<D>::cells);
+        // Across boundary facets the neighbours stay unset: see join_cap().
+        place_rows(cap.mesh().neighbors, hull_.neighbors, first_cell, static_cast<Index>(first_cell),
+                   looks_back);
+        cap.release(&SpatialMesh<D>::neighbors);
+    }
+
+    /// Copies rows of indices to the hull's from row `first` on.
+    template<class Row>
+    static void place_rows(const Array<Row>& rows, Array<Row>& hull, std::size_t first, Index shift,
+                           bool turned) {
+        for_each_index(rows.size(), items_per_piece, [&](std::size_t k) {
+            Row row = rows[k];
+            for (Index& entry : row) {
+                entry += shift;
+            }
+            if (turned) {
+                std::swap(row[0], row[1]);
+            }
+            hull[first + k] = row;
+        });
+    }
+
+    void place_side_vertices() {
         for (std::size_t level = 1; level < sweep_.layers(); ++level) {
-            place_level(level);
+            for_each_index(sweep_.cap_vertex.size(), items_per_piece, [&](std::size_t v) {
+                hull_.points[vertices_.on_level(level, static_cast<Index>(v))] =
+                    at_time<D>(sweep_.positions[level][v], sweep_.times[level]);
+            });
         }
         for (std::size_t layer = 0; layer < sweep_.layers(); ++layer) {
             place_centres(layer);
         }
-        place_cap_vertices(terminating_, vertices_.end(), sweep_.times.back());
-    }
-
-    void place_cap_vertices(const SpatialMesh<D>& cap, std::size_t begin, double t) {
-        for_each_index(cap.points.size(), items_per_piece, [&](std::size_t v) {
-            hull_.points[begin + v] = at_time<D>(cap.points[v], t);
-            hull_.vertex_ids[begin + v] = cap.vertex_ids[v];
-            hull_.track_ids[begin + v] = cap.track_ids[v];
-        });
-    }
-
-    /// New ids; the levels' vertices get their tracks after that.
-    void name_side_vertices() {
-        const std::size_t count = vertices_.end() - vertices_.begin();
-        const PersistentId first = ids_.take(count);
-        for_each_index(count, items_per_piece, [&](std::size_t v) {
-            hull_.vertex_ids[vertices_.begin() + v] = first + static_cast<PersistentId>(v);
-            hull_.track_ids[vertices_.begin() + v] = no_track;
-        });
-    }
-
-    void place_level(std::size_t level) {
-        for_each_index(sweep_.cap_vertex.size(), items_per_piece, [&](std::size_t v) {
-            const std::size_t vertex = vertices_.on_level(level, static_cast<Index>(v));
-            hull_.points[vertex] = at_time<D>(sweep_.positions[level][v], sweep_.times[level]);
-            hull_.track_ids[vertex] = sweep_.tracks[v];
-        });
     }
 
     void place_centres(std::size_t layer) {
@@ -149,26 +180,6 @@ private:
             coordinate /= 2.0 * static_cast<double>(N);
         }
         return at_time<D>(sum, 0.5 * (sweep_.times[layer] + sweep_.times[layer + 1]));
-    }
-
-    /// Across boundary facets the neighbours stay unset: see join_caps().
-    void place_cap_cells(const SpatialMesh<D>& cap, std::size_t begin, Index first_vertex) {
-        const bool looks_back = begin == 0; // in time, so that its cells turn over
-        const auto first = static_cast<Index>(begin);
-        for_each_index(cap.cells.size(), items_per_piece, [&](std::size_t c) {
-            Simplex<D> cell = cap.cells[c];
-            Neighbors<D> neighbors = cap.neighbors[c];
-            for (std::size_t i = 0; i <= D; ++i) {
-                cell[i] += first_vertex;
-                neighbors[i] += first;
-            }
-            if (looks_back) {
-                std::swap(cell[0], cell[1]);
-                std::swap(neighbors[0], neighbors[1]);
-            }
-            hull_.cells[begin + c] = cell;
-            hull_.neighbors[begin + c] = neighbors;
-        });
     }
 
     void place_side_cells() {
@@ -229,22 +240,21 @@ private:
         return cell;
     }
 
-    void join_caps() {
-        join_cap(find_boundary_facets(initial_), 0, 0, Template::bottom);
-        join_cap(find_boundary_facets(terminating_), hull_.terminating_begin(), hull_.layers - 1,
-                 Template::top);
-    }
-
-    /// Joins boundary facet f of a cap to the prism over facet f: the cap's boundary facets are the swept
-    /// ones, in order.
-    void join_cap(const Array<CellFacet>& boundary, std::size_t cap_begin, std::size_t layer,
-                  std::uint8_t slot) {
+    Array<CellFacet> boundary_of_cap(const SpatialMesh<D>& cap) const {
+        Array<CellFacet> boundary = find_boundary_facets(cap);
         if (boundary.size() != graph_.facets()) {
             throw GeometryError(
                 fmt::format("the caps and the side of the slab from t = {} to {} do not close: a cap has {} "
                             "boundary facets, the side {}",
                             hull_.time[0], hull_.time[1], boundary.size(), graph_.facets()));
         }
+        return boundary;
+    }
+
+    /// Joins boundary facet f of a cap to the prism over facet f: the cap's boundary facets are the swept
+    /// ones, in order.
+    void join_cap(const Array<CellFacet>& boundary, std::size_t cap_begin, std::size_t layer,
+                  std::uint8_t slot) {
         for (std::size_t f = 0; f < boundary.size(); ++f) {
             const auto [cap_cell, cap_place] = boundary[f];
             const Index side_cell = cell_in_slot(layer, f, slot);
@@ -258,9 +268,9 @@ private:
         }
     }
 
-    const SpatialMesh<D>& initial_;
+    CapToStitch<D>& initial_;
     const Sweep<D>& sweep_;
-    const SpatialMesh<D>& terminating_;
+    CapToStitch<D>& terminating_;
     const SideOptions& options_;
     IdCounter& ids_;
     const SplitRecipe& recipe_;
@@ -296,6 +306,34 @@ SpatialMesh<D> terminating_cap(const SpatialMesh<D>& initial, const Sweep<D>& sw
 }
 
 template<int D>
+SpatialMesh<D> terminating_cap_of(const Hull<D>& hull, Array<Facet<D>> boundary_facets) {
+    const std::size_t first_point = hull.terminating_points_begin();
+    const std::size_t first_cell = hull.terminating_begin();
+    SpatialMesh<D> cap;
+    cap.points.resize(hull.points.size() - first_point);
+    for_each_index(cap.points.size(), items_per_piece, [&](std::size_t v) {
+        std::copy_n(hull.points[first_point + v].begin(), D, cap.points[v].begin());
+    });
+    cap.cells.resize(hull.cells.size() - first_cell);
+    cap.neighbors.resize(cap.cells.size());
+    for_each_index(cap.cells.size(), items_per_piece, [&](std::size_t c) {
+        for (std::size_t i = 0; i <= D; ++i) {
+            const Index across = hull.neighbors[first_cell + c][i];
+            cap.cells[c][i] = hull.cells[first_cell + c][i] - static_cast<Index>(first_point);
+            cap.neighbors[c][i] = across < first_cell ? no_index : across - static_cast<Index>(first_cell);
+        }
+    });
+    cap.boundary_facets = std::move(boundary_facets);
+    cap.boundary_patch = hull.facet_patch;
+    cap.patches = hull.patches;
+    cap.vertex_ids.resize(cap.points.size());
+    cap.track_ids.resize(cap.points.size());
+    hull.vertex_ids.copy(first_point, hull.points.size(), cap.vertex_ids.data());
+    hull.track_ids.copy(first_point, hull.points.size(), cap.track_ids.data());
+    return cap;
+}
+
+template<int D>
 std::size_t side_vertex_count(const Sweep<D>& sweep, Split split) {
     const SplitRecipe& recipe = recipe_of(split);
     const std::size_t facets = sweep.surface.facets.size();
@@ -309,7 +347,7 @@ std::size_t side_vertex_count(const Sweep<D>& sweep, Split split) {
 }
 
 template<int D>
-Hull<D> stitch(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SpatialMesh<D>& terminating,
+Hull<D> stitch(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
                const SideOptions& options, IdCounter& ids) {
     return Stitcher<D>{initial, sweep, terminating, options, ids}.run();
 }
@@ -318,9 +356,9 @@ template SpatialMesh<2> terminating_cap<2>(const SpatialMesh<2>&, const Sweep<2>
 template SpatialMesh<3> terminating_cap<3>(const SpatialMesh<3>&, const Sweep<3>&, CapMesh<3>&&, IdCounter&);
 template std::size_t side_vertex_count<2>(const Sweep<2>&, Split);
 template std::size_t side_vertex_count<3>(const Sweep<3>&, Split);
-template Hull<2> stitch<2>(const SpatialMesh<2>&, const Sweep<2>&, const SpatialMesh<2>&, const SideOptions&,
-                           IdCounter&);
-template Hull<3> stitch<3>(const SpatialMesh<3>&, const Sweep<3>&, const SpatialMesh<3>&, const SideOptions&,
-                           IdCounter&);
+template Hull<2> stitch<2>(CapToStitch<2>, const Sweep<2>&, CapToStitch<2>, const SideOptions&, IdCounter&);
+template Hull<3> stitch<3>(CapToStitch<3>, const Sweep<3>&, CapToStitch<3>, const SideOptions&, IdCounter&);
+template SpatialMesh<2> terminating_cap_of<2>(const Hull<2>&, Array<Facet<2>>);
+template SpatialMesh<3> terminating_cap_of<3>(const Hull<3>&, Array<Facet<3>>);
 
 } // namespace slabhull

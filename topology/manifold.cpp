@@ -2,6 +2,7 @@
 #include "slabhull/topology/manifold.h"
 
 #include "cell_lists.h"
+#include "cell_stretches.h"
 #include "link.h"
 #include "slabhull/core/parallel.h"
 #include "sorted_cell.h"
@@ -78,8 +79,8 @@ bool may_be_duplicate(const Neighbors<D>& neighbors) {
 template<int D>
 class Examination {
 public:
-    Examination(std::span<const Simplex<D>> cells, std::size_t vertex_count, const Adjacency<D>& adjacency,
-                const ManifoldOptions& options)
+    Examination(std::span<const Simplex<D>> cells, std::size_t vertex_count,
+                const AdjacencyView<D>& adjacency, const ManifoldOptions& options)
         : cells_{cells}, vertex_count_{vertex_count}, adjacency_{adjacency}, options_{options} {}
 
     ManifoldReport run() {
@@ -87,7 +88,7 @@ public:
         examine_cells();
         examine_facets();
         examine_vertices();
-        report_.counts.components = count_components<D>(adjacency_.neighbors);
+        report_.counts.components = components();
         report_.counts.euler = euler();
         std::stable_sort(report_.findings.begin(), report_.findings.end(),
                          [](const ManifoldFinding& a, const ManifoldFinding& b) { return a.what < b.what; });
@@ -216,56 +217,74 @@ private:
     // --- vertices
     // ------------------------------------------------------------------------------------------------
 
+    /// Of consecutive vertices.
     struct Usage {
         Array<Index> cells; ///< how many use each vertex
         Array<Index> one;   ///< one of them
     };
 
-    Usage count_usage() const {
+    Usage count_usage(const CellStretches<D>& stretches, std::size_t begin, std::size_t end) const {
         Usage usage;
-        usage.cells.assign(vertex_count_, 0);
-        usage.one.assign(vertex_count_, no_index);
-        parallel_for(cells_.size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c) {
-                each_vertex(cells_[c], [&](Index v) {
-                    std::atomic_ref{usage.cells[v]}.fetch_add(1, std::memory_order_relaxed);
-                    std::atomic_ref{usage.one[v]}.store(static_cast<Index>(c), std::memory_order_relaxed);
-                });
-            }
-        });
+        usage.cells.assign(end - begin, 0);
+        usage.one.assign(end - begin, no_index);
+        const std::vector<Index> some = stretches.naming(begin, end);
+        const auto count = [&](std::size_t c) {
+            each_vertex(cells_[c], [&](Index v) {
+                if (begin <= v && v < end) {
+                    std::atomic_ref{usage.cells[v - begin]}.fetch_add(1, std::memory_order_relaxed);
+                    std::atomic_ref{usage.one[v - begin]}.store(static_cast<Index>(c),
+                                                                std::memory_order_relaxed);
+                }
+            });
+        };
+        parallel_for(some.size(), 1,
+                     [&](std::size_t k, std::size_t) { stretches.each_cell(some[k], count); });
         return usage;
     }
 
     void examine_vertices() {
-        const Usage usage = count_usage();
+        constexpr std::size_t passes = 8;
+        const CellStretches<D> stretches{cells_};
+        const std::size_t at_once = vertices_at_once(vertex_count_, passes);
         PieceLists<Index> unused(vertex_count_, vertices_per_piece);
         PieceLists<Index> suspects(vertex_count_, vertices_per_piece);
+        std::size_t link_vertices = 0;
+        for (std::size_t begin = 0; begin < vertex_count_; begin += at_once) {
+            const std::size_t end = std::min(vertex_count_, begin + at_once);
+            const Usage usage = count_usage(stretches, begin, end);
+            link_vertices += examine_stars(begin, end, usage, unused, suspects);
+        }
+        report_unused(unused.joined());
+        const std::vector<Index> to_examine = suspects.joined();
+        sound_ = to_examine.empty();
+        link_vertices += examine_suspects(to_examine);
+        report_.counts.edges = D == 2 ? report_.counts.facets : link_vertices / 2;
+    }
+
+    /// Returns how many vertices there are in the links of the sound ones among [first, last).
+    std::size_t examine_stars(std::size_t first, std::size_t last, const Usage& usage,
+                              PieceLists<Index>& unused, PieceLists<Index>& suspects) {
         std::atomic<std::size_t> link_vertices{0};
-        Lender<StarCounter<D>> counters;
-        parallel_for(vertex_count_, vertices_per_piece, [&](std::size_t begin, std::size_t end) {
-            auto stars = counters.take([&] {
-                return StarCounter<D>{cells_, adjacency_.neighbors, vertex_count_};
-            });
+        parallel_for(last - first, vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+            auto stars = counters_.take([&] { return StarCounter<D>{cells_, adjacency_.neighbors}; });
             std::size_t in_links = 0;
-            for (std::size_t v = begin; v < end; ++v) {
-                const auto vertex = static_cast<Index>(v);
-                if (usage.cells[v] == 0) {
-                    unused.at(begin).push_back(vertex);
+            for (std::size_t k = begin; k < end; ++k) {
+                const auto vertex = static_cast<Index>(first + k);
+                if (usage.cells[k] == 0) {
+                    unused.at(first + begin).push_back(vertex);
                     continue;
                 }
-                const auto star = stars->count(vertex, usage.one[v]);
-                if (is_sound(star, usage.cells[v])) {
+                const auto star = stars->count(vertex, usage.one[k]);
+                if (is_sound(star, usage.cells[k])) {
                     in_links += star.vertices;
                 } else {
-                    suspects.at(begin).push_back(vertex);
+                    suspects.at(first + begin).push_back(vertex);
                 }
             }
             link_vertices += in_links;
-            counters.give_back(std::move(stars));
+            counters_.give_back(std::move(stars));
         });
-        report_unused(unused.joined());
-        link_vertices += examine_suspects(suspects.joined());
-        report_.counts.edges = D == 2 ? report_.counts.facets : link_vertices / 2;
+        return link_vertices;
     }
 
     /// May doubt a sound vertex of an open manifold, never trusts a bad one.
@@ -293,7 +312,7 @@ private:
             list_cells(cells_.size(), suspects.size(), [&](std::size_t c, const auto& file) {
                 each_vertex(cells_[c], [&](Index v) {
                     if (place[v] != no_index) {
-                        file(place[v]);
+                        file(place[v], static_cast<Index>(c));
                     }
                 });
             });
@@ -355,6 +374,21 @@ private:
         }
     }
 
+    /// Where the cells at each vertex are joined through facets, cells are so when they are through vertices:
+    /// there are fewer of those.
+    std::size_t components() const {
+        if (!adjacency_.defects.empty() || !discredited_.empty() || !sound_) {
+            return count_components<D>(adjacency_.neighbors);
+        }
+        UnionFind joined{vertex_count_};
+        for (const Simplex<D>& cell : cells_) {
+            for (std::size_t i = 1; i <= D; ++i) {
+                joined.join(cell[0], cell[i]);
+            }
+        }
+        return joined.count_sets() - (vertex_count_ - report_.counts.vertices);
+    }
+
     std::int64_t euler() const {
         const ManifoldCounts& n = report_.counts;
         const auto alternating = static_cast<std::int64_t>(n.vertices) - static_cast<std::int64_t>(n.edges);
@@ -364,18 +398,20 @@ private:
 
     std::span<const Simplex<D>> cells_;
     std::size_t vertex_count_;
-    const Adjacency<D>& adjacency_;
+    AdjacencyView<D> adjacency_;
     ManifoldOptions options_;
     ManifoldReport report_;
     std::vector<Index> discredited_; ///< cells at fault themselves, ascending
-    std::vector<bool> tainted_;      ///< vertices of facets and cells at fault; empty when there are none
+    Lender<StarCounter<D>> counters_;
+    bool sound_ = false;        ///< the star and the link of every vertex that is used
+    std::vector<bool> tainted_; ///< vertices of facets and cells at fault; empty when there are none
 };
 
 } // namespace
 
 template<int D>
 ManifoldReport examine_manifold(std::span<const Simplex<D>> cells, std::size_t vertex_count,
-                                const Adjacency<D>& adjacency, const ManifoldOptions& options) {
+                                const AdjacencyView<D>& adjacency, const ManifoldOptions& options) {
     return Examination<D>{cells, vertex_count, adjacency, options}.run();
 }
 
@@ -392,9 +428,9 @@ std::size_t count_components(std::span<const Neighbors<D>> neighbors) {
     return components.count_sets();
 }
 
-template ManifoldReport examine_manifold<2>(std::span<const Simplex<2>>, std::size_t, const Adjacency<2>&,
+template ManifoldReport examine_manifold<2>(std::span<const Simplex<2>>, std::size_t, const AdjacencyView<2>&,
                                             const ManifoldOptions&);
-template ManifoldReport examine_manifold<3>(std::span<const Simplex<3>>, std::size_t, const Adjacency<3>&,
+template ManifoldReport examine_manifold<3>(std::span<const Simplex<3>>, std::size_t, const AdjacencyView<3>&,
                                             const ManifoldOptions&);
 template std::size_t count_components<1>(std::span<const Neighbors<1>>);
 template std::size_t count_components<2>(std::span<const Neighbors<2>>);

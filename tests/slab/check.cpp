@@ -51,9 +51,28 @@ Claims<D> body_claims() {
     return Claims<D>{specimens::swept(specimens::box_with_body<D>(), 2)};
 }
 
+/// As a hull in memory has them; entries that fit no table stay out of it.
+template<int D>
+Array<Neighbors<D>> neighbor_table(const Claims<D>& claims) {
+    Array<Neighbors<D>> table(claims.neighbors.size() / (D + 1));
+    for (std::size_t k = 0; k < table.size() * (D + 1); ++k) {
+        table[k / (D + 1)][k % (D + 1)] = static_cast<Index>(claims.neighbors[k]);
+    }
+    return table;
+}
+
+/// The check must find the same whether it can compare with a table of neighbours or has to make one.
 template<int D>
 HullReport check(const Claims<D>& claims) {
-    return check_hull<D>(claims.columns());
+    const HullReport report = check_hull<D>(claims.columns());
+    const Array<Neighbors<D>> table = neighbor_table(claims);
+    HullColumns<D> with_table = claims.columns();
+    with_table.neighbor_table = table;
+    const HullReport again = check_hull<D>(with_table);
+    REQUIRE(all_texts(report) == all_texts(again));
+    REQUIRE(report.found == again.found);
+    REQUIRE(report.counts.components == again.counts.components);
+    return report;
 }
 
 /// A vertex on the middle level, where no cap is.

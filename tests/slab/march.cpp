@@ -99,8 +99,8 @@ TEMPLATE_TEST_CASE_SIG("a corrected motion gives the same ids to the same vertic
     const Slab<D> predicted = march.propose({0, 0.125, 0.25});
     correct(march);
     const Slab<D> corrected = march.propose({0, 0.125, 0.25});
-    const std::size_t side_end = predicted.hull.points.size() - predicted.terminating.points.size();
-    REQUIRE(side_end == corrected.hull.points.size() - corrected.terminating.points.size());
+    const std::size_t side_end = predicted.hull.points.size() - predicted.terminating().points.size();
+    REQUIRE(side_end == corrected.hull.points.size() - corrected.terminating().points.size());
     const std::size_t boundary = march.state().start_places.size();
     const std::size_t kept = side_end + boundary;
     CHECK(std::equal(predicted.hull.vertex_ids.begin(),
@@ -126,12 +126,34 @@ TEMPLATE_TEST_CASE_SIG(
         for (std::size_t v = initial; v < slab.hull.points.size(); ++v) {
             REQUIRE(used.insert(slab.hull.vertex_ids[v]).second);
         }
-        const SpatialMesh<D> next = slab.terminating;
+        const SpatialMesh<D> next = slab.terminating();
         march.accept(std::move(slab));
         CHECK(same_mesh(next, march.state().cap));
         CHECK(march.state().slab == k + 1);
         CHECK(march.state().time == begin + 0.1);
     }
+}
+
+TEMPLATE_TEST_CASE_SIG("a slab that takes the initial cap over is the slab proposed, and must be accepted",
+                       "[march]", ((int D), D), 2, 3) {
+    March<D> march = coarse_march<D>();
+    const SpatialMesh<D> before = march.state().cap;
+    StageClock clock;
+    const Slab<D> proposed = march.propose({0, 0.1});
+    CHECK_THROWS_AS(march.build({0.5, 0.6}, clock), UsageError); // from another time: nothing is taken
+    CHECK(same_mesh(before, march.state().cap));
+    Slab<D> slab = march.build({0, 0.1}, clock);
+    CHECK(slab.hull.points == proposed.hull.points);
+    CHECK(slab.hull.cells == proposed.hull.cells);
+    CHECK(slab.hull.neighbors == proposed.hull.neighbors);
+    CHECK(slab.hull.vertex_ids == proposed.hull.vertex_ids);
+    CHECK(slab.hull.track_ids == proposed.hull.track_ids);
+    CHECK(march.state().cap.cells.empty());
+    CHECK_THROWS_AS(march.build({0, 0.1}, clock), UsageError);
+    CHECK_THROWS_AS(march.propose({0, 0.1}), UsageError);
+    march.accept(std::move(slab));
+    CHECK(same_mesh(proposed.terminating(), march.state().cap));
+    CHECK(march.propose({0.1, 0.2}).hull.time[1] == 0.2);
 }
 
 TEMPLATE_TEST_CASE_SIG("a moved cap keeps its cells, and is meshed anew when its angles become too small",
@@ -143,11 +165,11 @@ TEMPLATE_TEST_CASE_SIG("a moved cap keeps its cells, and is meshed anew when its
     Slab<D> near = march.propose({0, 0.02});
     CHECK(near.cap_moved);
     CHECK(near.moved_angle.value() > 1);
-    CHECK(near.terminating.cells.size() == before.cells.size());
-    CHECK(near.terminating.points.size() == before.points.size());
-    CHECK(near.terminating.vertex_ids != before.vertex_ids);
+    CHECK(near.terminating().cells.size() == before.cells.size());
+    CHECK(near.terminating().points.size() == before.points.size());
+    CHECK(near.terminating().vertex_ids != before.vertex_ids);
     CHECK(check_hull<D>(columns_of(near.hull)).clean());
-    CHECK(same_mesh(near.terminating, march.propose({0, 0.02}).terminating));
+    CHECK(same_mesh(near.terminating(), march.propose({0, 0.02}).terminating()));
     march.accept(std::move(near));
 
     march.settings().reuse_angle = 59.9; // more than any mesh has
@@ -156,7 +178,7 @@ TEMPLATE_TEST_CASE_SIG("a moved cap keeps its cells, and is meshed anew when its
     CHECK(anew.moved_angle.value() < 59.9);
     CHECK(check_hull<D>(columns_of(anew.hull)).clean());
     march.settings().reuse = CapReuse::none;
-    CHECK(same_mesh(anew.terminating, march.propose({0.02, 0.04}).terminating));
+    CHECK(same_mesh(anew.terminating(), march.propose({0.02, 0.04}).terminating()));
 }
 
 TEST_CASE("a cap whose inner vertices come before its boundary's is moved, too", "[march]") {
@@ -230,7 +252,7 @@ TEST_CASE("vertices where projected patches meet stay on all of their surfaces",
     settings.motions[3] = {turning, plane_surface<2>({0, 0}, {1, 0})};
     const March<2> march{quarter_disk(), settings};
     const Slab<2> slab = march.propose({0, 0.5});
-    const auto& end = slab.terminating.points;
+    const Array<Point<2>> end = slab.terminating().points;
     CHECK(std::hypot(end[0][0], end[0][1]) < 1e-12);
     for (const Index corner : {Index{1}, quarter_divisions + 1}) {
         const double angle = 0.5 + (corner == 1 ? 0 : 1.5707963267948966);
@@ -252,19 +274,20 @@ TEST_CASE("over 10,000 slabs no id is given twice, and each initial cap is the c
         const double begin = march.state().time;
         Slab<2> slab = march.propose({begin, begin + 0.01});
         const SpatialMesh<2>& cap = march.state().cap;
-        const auto fresh = slab.hull.vertex_ids.begin() + static_cast<std::ptrdiff_t>(cap.points.size());
-        std::sort(fresh, slab.hull.vertex_ids.end());
+        std::vector<PersistentId> fresh{slab.hull.vertex_ids.begin() +
+                                            static_cast<std::ptrdiff_t>(cap.points.size()),
+                                        slab.hull.vertex_ids.end()};
+        std::sort(fresh.begin(), fresh.end());
         const bool kept =
             std::equal(cap.vertex_ids.begin(), cap.vertex_ids.end(), slab.hull.vertex_ids.begin());
-        const bool unique =
-            std::adjacent_find(fresh, slab.hull.vertex_ids.end()) == slab.hull.vertex_ids.end();
+        const bool unique = std::adjacent_find(fresh.begin(), fresh.end()) == fresh.end();
         const bool placed =
             std::equal(cap.points.begin(), cap.points.end(), slab.hull.points.begin(),
                        [](const auto& x, const auto& p) { return x[0] == p[0] && x[1] == p[1]; });
-        if (!kept || !unique || !placed || *fresh <= highest) {
+        if (!kept || !unique || !placed || fresh.front() <= highest) {
             FAIL("in slab " << k);
         }
-        highest = slab.hull.vertex_ids.back();
+        highest = fresh.back();
         march.accept(std::move(slab));
     }
     CHECK(march.state().slab == 10'000);

@@ -33,8 +33,8 @@ March<D> march(const Case& the_case, const std::vector<double>& slab_times) {
         Slab<D> slab = build_slab<D>(result.caps.back(), static_cast<int>(i),
                                      {slab_times[i], middle, slab_times[i + 1]}, settings, result.ids, clock);
         result.ids = slab.next_ids;
+        result.caps.push_back(slab.terminating());
         result.hulls.push_back(std::move(slab.hull));
-        result.caps.push_back(std::move(slab.terminating));
     }
     return result;
 }

@@ -27,6 +27,10 @@ void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& fo
 template<int D>
 void write_cap(io::AtomicFile& file, const SpatialMesh<D>& cap, double time);
 
+/// The same of a hull's terminating cap, without a copy of it.
+template<int D>
+void write_terminating_cap(io::AtomicFile& file, const Hull<D>& hull);
+
 /// Reads a cap that write_cap() wrote: points, cells, ids and tracks bit for bit, adjacency made anew.
 /// Boundary facets and patches are not in the file. Throws InputError.
 template<int D>

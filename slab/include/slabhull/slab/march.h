@@ -35,7 +35,7 @@ template<int D>
 class March {
 public:
     March(MarchState<D> state, SlabSettings<D> settings)
-        : state_{std::move(state)}, settings_{std::move(settings)} {}
+        : state_{std::move(state)}, settings_{std::move(settings)}, first_id_{first_id()} {}
 
     const MarchState<D>& state() const { return state_; }
     /// To be corrected between proposals.
@@ -46,12 +46,21 @@ public:
     Slab<D> propose(std::vector<double> times, StageClock& clock) const;
     Slab<D> propose(std::vector<double> times) const;
 
+    /// As propose(), for a march that never goes back: the initial cap is given up once it is in the hull, so
+    /// that it is not held twice. After that the march can only accept this slab.
+    Slab<D> build(std::vector<double> times, StageClock& clock);
+
     /// Goes on to the slab's end. Throws UsageError for a slab that was not proposed from here.
     void accept(Slab<D>&& slab);
 
 private:
+    void require_times(const std::vector<double>& times) const;
+    /// Tells the initial cap from others; -1 for one without vertices.
+    PersistentId first_id() const { return state_.cap.vertex_ids.empty() ? -1 : state_.cap.vertex_ids[0]; }
+
     MarchState<D> state_;
     SlabSettings<D> settings_;
+    PersistentId first_id_;
 };
 
 extern template struct MarchState<2>;

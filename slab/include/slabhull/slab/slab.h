@@ -24,15 +24,18 @@ struct SlabSettings {
     std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move as files of displacements say
 };
 
-/// One slab: its hull, and the cap that the next one starts from.
+/// One slab: its hull, which ends with the cap that the next one starts from.
 template<int D>
 struct Slab {
     Hull<D> hull;
-    SpatialMesh<D> terminating;
+    Array<Facet<D>> terminating_facets; ///< of the terminating cap's boundary, in the cap's own numbers
     std::map<PatchNumber, ProjectionReport> projected;
     bool cap_moved = false; ///< the terminating cap is the initial one, moved; else meshed anew ...
     std::optional<double> moved_angle; ///< ... where tried, the smallest angle (degrees) that moving gave
     IdCounter next_ids;                ///< what the next slab counts from
+
+    /// A copy, made from the hull.
+    SpatialMesh<D> terminating() const { return terminating_cap_of<D>(hull, terminating_facets); }
 };
 
 /// How a case wants its caps meshed.
@@ -48,9 +51,10 @@ SlabSettings<D> settings_of(const Case& the_case, const Surface<D>& start);
 /// is not checked as a whole (check_hull() does); the boundary is, on every level, and so is the terminating
 /// cap. New ids are counted from `ids`: first the side's, then those of the terminating boundary, then those
 /// inside the cap. Throws GeometryError naming what and where: motions that disagree, a cap that cannot be
-/// meshed; TangledBoundary for a boundary that crosses itself or leaves its box.
+/// meshed; TangledBoundary for a boundary that crosses itself or leaves its box. An initial cap that is given
+/// up is still there when an error is thrown.
 template<int D>
-Slab<D> build_slab(const SpatialMesh<D>& initial, int number, std::vector<double> times,
+Slab<D> build_slab(CapToStitch<D> initial, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock);
 
 } // namespace slabhull

@@ -5,6 +5,7 @@
 #include "slabhull/slab/sweep.h"
 #include "slabhull/topology/hull.h"
 #include "slabhull/topology/prism_split.h"
+#include "slabhull/topology/spatial_mesh.h"
 
 namespace slabhull {
 
@@ -34,6 +35,32 @@ struct SideOptions {
 template<int D>
 std::size_t side_vertex_count(const Sweep<D>& sweep, Split split);
 
+/// A cap to be stitched into a hull. One that is given up is emptied, array by array, as soon as it is in the
+/// hull, so that it is not held twice.
+template<int D>
+class CapToStitch {
+public:
+    CapToStitch(const SpatialMesh<D>& kept) : mesh_{kept} {}
+    CapToStitch(SpatialMesh<D>&& given_up) : mesh_{given_up}, given_up_{&given_up} {}
+
+    const SpatialMesh<D>& mesh() const { return mesh_; }
+    /// Empties an array of a cap that is given up.
+    template<class T>
+    void release(Array<T> SpatialMesh<D>::*array) {
+        if (given_up_ != nullptr) {
+            given_up_->*array = {};
+        }
+    }
+
+private:
+    const SpatialMesh<D>& mesh_;
+    SpatialMesh<D>* given_up_ = nullptr;
+};
+
+/// The terminating cap of a stitched hull, with its boundary facets, in the cap's own numbers.
+template<int D>
+SpatialMesh<D> terminating_cap_of(const Hull<D>& hull, Array<Facet<D>> boundary_facets);
+
 /// Joins the initial cap, the side made from the sweep and the terminating cap into one closed hull: steps 5
 /// to 7. Vertices: those of the initial cap, then the side's by layer (levels, face centres, prism centres),
 /// then the terminating cap's. Adjacency comes by construction: the caps' own, the split's template, and the
@@ -42,7 +69,7 @@ std::size_t side_vertex_count(const Sweep<D>& sweep, Split split);
 /// (which the caps' own checks make impossible), LimitError when the hull is too large for its indices. Cost:
 /// near-linear. The result does not depend on the number of threads.
 template<int D>
-Hull<D> stitch(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SpatialMesh<D>& terminating,
+Hull<D> stitch(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
                const SideOptions& options, IdCounter& ids);
 
 } // namespace slabhull

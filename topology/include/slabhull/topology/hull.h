@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slabhull/core/array.h"
+#include "slabhull/core/id_runs.h"
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
 
@@ -25,9 +26,11 @@ struct Hull {
     Array<Point<D + 1>> points;
     Array<Simplex<D>> cells;
     Array<Neighbors<D>> neighbors; ///< closed: every entry names a cell
-    Array<PersistentId> vertex_ids;
-    Array<TrackId> track_ids;
+    IdRuns vertex_ids;
+    IdRuns track_ids;
 
+    std::size_t initial_points = 0; ///< vertices of the initial cap come first,
+    std::size_t side_points = 0;    ///< then those in neither cap, then the terminating cap's
     std::size_t initial_cells = 0;
     std::size_t side_cells = 0;
     std::size_t layers = 0;
@@ -39,6 +42,7 @@ struct Hull {
     std::array<double, 2> time{}; ///< start and end of the slab
 
     std::size_t terminating_begin() const { return initial_cells + side_cells; }
+    std::size_t terminating_points_begin() const { return initial_points + side_points; }
 
     Region region(std::size_t cell) const {
         if (cell < initial_cells) {

@@ -63,19 +63,20 @@ struct ManifoldOptions {
 /// link has Euler characteristic 2: V - F / 2, as the link's edges are 3 F / 2. A connected closed surface of
 /// characteristic 2 is a sphere without pinch points, so the edges at a sound vertex are sound too; only the
 /// others are looked at closely. Vertices of facets and cells that are already at fault are not blamed again.
-/// Cost: near-linear; about 8 extra bytes per cell. The result does not depend on the number of threads.
+/// Cost: near-linear; about 1 extra byte per cell of a sound manifold. The result does not depend on the
+/// number of threads.
 template<int D>
 ManifoldReport examine_manifold(std::span<const Simplex<D>> cells, std::size_t vertex_count,
-                                const Adjacency<D>& adjacency, const ManifoldOptions& options = {});
+                                const AdjacencyView<D>& adjacency, const ManifoldOptions& options = {});
 
 /// How many components the cells form when joined through facets. About 4 extra bytes per cell.
 template<int D>
 std::size_t count_components(std::span<const Neighbors<D>> neighbors);
 
 extern template ManifoldReport examine_manifold<2>(std::span<const Simplex<2>>, std::size_t,
-                                                   const Adjacency<2>&, const ManifoldOptions&);
+                                                   const AdjacencyView<2>&, const ManifoldOptions&);
 extern template ManifoldReport examine_manifold<3>(std::span<const Simplex<3>>, std::size_t,
-                                                   const Adjacency<3>&, const ManifoldOptions&);
+                                                   const AdjacencyView<3>&, const ManifoldOptions&);
 extern template std::size_t count_components<1>(std::span<const Neighbors<1>>);
 extern template std::size_t count_components<2>(std::span<const Neighbors<2>>);
 extern template std::size_t count_components<3>(std::span<const Neighbors<3>>);
