@@ -130,7 +130,7 @@ struct Case {
     double cap_size = std::numeric_limits<double>::infinity();
     double cap_growth = 0.3;
     double cap_quality = 1.414;
-    bool cap_curve_order = true; ///< `cap.order = "curve"`
+    bool cap_curve_order = true;                  ///< `cap.order = "curve"`
     SolidMesher cap_mesher = SolidMesher::tetgen; ///< D = 3
     int cap_blocks = 0;                           ///< D = 3; 0: chosen by memory
     CapReuse cap_reuse = CapReuse::none;
