@@ -39,17 +39,6 @@ double bytes_for(double cells, int blocks, int at_once) {
     return cells * (own_bytes + mesher_bytes * std::min(1.0, static_cast<double>(at_once) / blocks));
 }
 
-int blocks_for(double cells, double memory) {
-    if (bytes_for(cells, 1, 1) <= memory) {
-        return 1;
-    }
-    int blocks = 2;
-    while (blocks < most_blocks && bytes_for(cells, blocks, 2) > memory) {
-        blocks *= 2;
-    }
-    return blocks;
-}
-
 /// A facet of a cell that has no neighbour in its block.
 struct OpenFacet {
     Facet<3> vertices; ///< ascending
@@ -155,6 +144,17 @@ CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, c
 
 } // namespace
 
+int blocks_that_fit(double cells, double bytes) {
+    if (bytes_for(cells, 1, 1) <= bytes) {
+        return 1;
+    }
+    int blocks = 2;
+    while (blocks < most_blocks && bytes_for(cells, blocks, 2) > bytes) {
+        blocks *= 2;
+    }
+    return blocks;
+}
+
 CapMesh<3> mesh_in_blocks(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options) {
     if (options.blocks == 1) {
         return fill(surface, size, options);
@@ -165,7 +165,7 @@ CapMesh<3> mesh_in_blocks(const Surface<3>& surface, const SizeField<3>& size, c
     }
     std::vector<LoadSample> load = sample_load(surface, size);
     const double cells = cells_per_cube * cubes_in(load);
-    const int count = options.blocks > 0 ? options.blocks : blocks_for(cells, memory);
+    const int count = options.blocks > 0 ? options.blocks : blocks_that_fit(cells, memory);
     if (count == 1) {
         return fill(surface, size, options);
     }

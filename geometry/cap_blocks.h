@@ -14,4 +14,7 @@ inline constexpr int most_blocks = 4096;
 /// ..., so that two at once fit. Needs: the boundary of a domain, see require_domain_boundary().
 CapMesh<3> mesh_in_blocks(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options);
 
+/// How many blocks so many cells are meshed in when so much memory may be used: 1, or 2, 4, 8 ...
+int blocks_that_fit(double cells, double bytes);
+
 } // namespace slabhull

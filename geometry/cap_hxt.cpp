@@ -6,15 +6,14 @@
 
 #include "components.h"
 
-#include "slabhull/core/error.h"
-#include "slabhull/geometry/measures.h"
+#include "slabhull/topology/adjacency.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <gmshc.h>
 
 #include <algorithm>
-#include <numeric>
+#include <iterator>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -32,7 +31,9 @@ constexpr int triangle_type = 2; // Gmsh's numbers
 constexpr int tetrahedron_type = 4;
 constexpr int hxt_algorithm = 10;
 
-struct GmshFailed {};
+struct GmshFailed {
+    std::string said;
+};
 
 /// Gmsh's C functions by name; the last argument of each, an error, is checked here.
 class Gmsh {
@@ -43,7 +44,7 @@ public:
     auto call(const char* name, Arguments... arguments) const {
         auto* function = reinterpret_cast<Function*>(dlsym(library_, name));
         if (function == nullptr) {
-            throw GmshFailed{};
+            throw GmshFailed{std::string{"it has no "} + name};
         }
         int error = 0;
         if constexpr (std::is_void_v<decltype(function(arguments..., &error))>) {
@@ -61,10 +62,16 @@ public:
     }
 
 private:
-    static void require(int error) {
-        if (error != 0) {
-            throw GmshFailed{};
+    void require(int error) const {
+        if (error == 0) {
+            return;
         }
+        char* said = nullptr;
+        if (auto* last = reinterpret_cast<decltype(gmshLoggerGetLastError)*>(
+                dlsym(library_, "gmshLoggerGetLastError"))) {
+            last(&said, &error);
+        }
+        throw GmshFailed{said != nullptr ? said : "no reason given"};
     }
     void* library_;
 };
@@ -89,100 +96,153 @@ void set_options(const Gmsh& gmsh, const SizeField<3>& size) {
                                                       const_cast<SizeField<3>*>(&size));
 }
 
-/// Adds one closed component of the surface as a discrete entity, and a loop around or in the volume of it.
-int add_component(const Gmsh& gmsh, const Surface<3>& surface, int tag, const std::vector<Index>& facets) {
-    gmsh.call<decltype(gmshModelAddDiscreteEntity)>("gmshModelAddDiscreteEntity", 2, tag,
-                                                    static_cast<int*>(nullptr), std::size_t{0});
-    std::vector<std::size_t> corners;
-    for (const Index f : facets) {
-        for (const Index v : surface.facets[f]) {
-            corners.push_back(v + std::size_t{1});
+/// The components that bound each connected part of the domain, the outer one first.
+using Solids = std::vector<std::vector<Index>>;
+
+Solids find_solids(const Surface<3>& surface, const Components& parts) {
+    Solids solids;
+    std::vector<Index> outer; // by size, ascending: the first one around a body is its own
+    for (Index part = 0; part < parts.count(); ++part) {
+        if (parts.enclosed[part] > 0) {
+            outer.push_back(part);
         }
     }
-    std::vector<std::size_t> nodes = corners;
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    std::stable_sort(outer.begin(), outer.end(),
+                     [&](Index a, Index b) { return parts.enclosed[a] < parts.enclosed[b]; });
+    for (const Index part : outer) {
+        solids.push_back({part});
+    }
+    const BoxTree<3> tree{facet_boxes(surface)};
+    for (Index part = 0; part < parts.count(); ++part) {
+        const Point<3>& place = surface.points[surface.facets[parts.first_facet[part]][0]];
+        const auto is_in = [&](const std::vector<Index>& solid) {
+            return winding_number<3>(surface, tree, place,
+                                     [&](Index f) { return parts.of_facet[f] == solid[0]; }) > 0;
+        };
+        if (!(parts.enclosed[part] > 0)) {
+            std::find_if(solids.begin(), solids.end(), is_in)->push_back(part);
+        }
+    }
+    return solids;
+}
+
+/// The surface in Gmsh's terms: its nodes, ascending from component to component. (It takes the last node
+/// added for the one with the largest tag, and would give tags twice.)
+class GmshDomain {
+public:
+    GmshDomain(const Gmsh& gmsh, const Surface<3>& surface, const Components& parts, const Solids& solids)
+        : gmsh_{gmsh}, surface_{surface}, tag_(surface.points.size(), 0) {
+        gmsh.call<decltype(gmshModelAdd)>("gmshModelAdd", "cap");
+        std::vector<std::vector<Index>> facets(parts.count());
+        for (Index f = 0; f < surface.facets.size(); ++f) {
+            facets[parts.of_facet[f]].push_back(f);
+        }
+        std::vector<int> loops;
+        for (std::size_t part = 0; part < facets.size(); ++part) {
+            loops.push_back(add_component(static_cast<int>(part) + 1, facets[part]));
+        }
+        for (const std::vector<Index>& solid : solids) {
+            std::vector<int> bounds;
+            std::transform(solid.begin(), solid.end(), std::back_inserter(bounds),
+                           [&](Index part) { return loops[part]; });
+            gmsh.call<decltype(gmshModelGeoAddVolume)>("gmshModelGeoAddVolume", bounds.data(), bounds.size(),
+                                                       -1);
+        }
+        gmsh.call<decltype(gmshModelGeoSynchronize)>("gmshModelGeoSynchronize");
+    }
+
+    /// Its points first, then those inside, and the cells.
+    CapMesh<3> result() const;
+
+private:
+    int add_component(int entity, const std::vector<Index>& facets);
+    /// Tags and coordinates of the nodes inside; sets their numbers.
+    void take_inside(CapMesh<3>& mesh, std::vector<Index>& number) const;
+
+    const Gmsh& gmsh_;
+    const Surface<3>& surface_;
+    std::vector<std::size_t> tag_; ///< of each point's node, from 1
+    std::size_t last_ = 0;
+};
+
+/// One closed component as a discrete entity, and a loop around the volume or in it.
+int GmshDomain::add_component(int entity, const std::vector<Index>& facets) {
+    std::vector<std::size_t> nodes;
     std::vector<double> coordinates;
-    for (const std::size_t node : nodes) {
-        const Point<3>& p = surface.points[node - 1];
-        coordinates.insert(coordinates.end(), p.begin(), p.end());
+    std::vector<std::size_t> corners;
+    for (const Index f : facets) {
+        for (const Index v : surface_.facets[f]) {
+            if (tag_[v] == 0) {
+                tag_[v] = ++last_;
+                nodes.push_back(last_);
+                coordinates.insert(coordinates.end(), surface_.points[v].begin(), surface_.points[v].end());
+            }
+            corners.push_back(tag_[v]);
+        }
     }
-    gmsh.call<decltype(gmshModelMeshAddNodes)>("gmshModelMeshAddNodes", 2, tag, nodes.data(), nodes.size(),
-                                               coordinates.data(), coordinates.size(),
-                                               static_cast<double*>(nullptr), std::size_t{0});
-    gmsh.call<decltype(gmshModelMeshAddElementsByType)>("gmshModelMeshAddElementsByType", tag, triangle_type,
-                                                        static_cast<std::size_t*>(nullptr), std::size_t{0},
-                                                        corners.data(), corners.size());
-    return gmsh.call<decltype(gmshModelGeoAddSurfaceLoop)>("gmshModelGeoAddSurfaceLoop", &tag, std::size_t{1},
-                                                           -1);
+    gmsh_.call<decltype(gmshModelAddDiscreteEntity)>("gmshModelAddDiscreteEntity", 2, entity,
+                                                     static_cast<int*>(nullptr), std::size_t{0});
+    gmsh_.call<decltype(gmshModelMeshAddNodes)>("gmshModelMeshAddNodes", 2, entity, nodes.data(),
+                                                nodes.size(), coordinates.data(), coordinates.size(),
+                                                static_cast<double*>(nullptr), std::size_t{0});
+    gmsh_.call<decltype(gmshModelMeshAddElementsByType)>("gmshModelMeshAddElementsByType", entity,
+                                                         triangle_type, static_cast<std::size_t*>(nullptr),
+                                                         std::size_t{0}, corners.data(), corners.size());
+    return gmsh_.call<decltype(gmshModelGeoAddSurfaceLoop)>("gmshModelGeoAddSurfaceLoop", &entity,
+                                                            std::size_t{1}, -1);
 }
 
-/// The surface, and the volume that its components bound. Nodes have the points' numbers, from 1.
-void add_domain(const Gmsh& gmsh, const Surface<3>& surface, const Components& parts) {
-    gmsh.call<decltype(gmshModelAdd)>("gmshModelAdd", "cap");
-    std::vector<std::vector<Index>> facets(parts.count());
-    for (Index f = 0; f < surface.facets.size(); ++f) {
-        facets[parts.of_facet[f]].push_back(f);
-    }
-    std::vector<int> loops;
-    for (std::size_t part = 0; part < facets.size(); ++part) {
-        loops.push_back(add_component(gmsh, surface, static_cast<int>(part) + 1, facets[part]));
-    }
-    gmsh.call<decltype(gmshModelGeoAddVolume)>("gmshModelGeoAddVolume", loops.data(), loops.size(), 1);
-    gmsh.call<decltype(gmshModelGeoSynchronize)>("gmshModelGeoSynchronize");
-}
-
-/// New points after those of the surface, and cells positively oriented.
-CapMesh<3> result_of(const Gmsh& gmsh) {
+void GmshDomain::take_inside(CapMesh<3>& mesh, std::vector<Index>& number) const {
     std::size_t* tags = nullptr;
-    std::size_t tag_count = 0;
+    std::size_t count = 0;
     double* coordinates = nullptr;
     std::size_t coordinate_count = 0;
     double* parameters = nullptr;
     std::size_t parameter_count = 0;
-    gmsh.call<decltype(gmshModelMeshGetNodes)>("gmshModelMeshGetNodes", &tags, &tag_count, &coordinates,
-                                               &coordinate_count, &parameters, &parameter_count, -1, -1, 0,
-                                               0);
+    gmsh_.call<decltype(gmshModelMeshGetNodes)>("gmshModelMeshGetNodes", &tags, &count, &coordinates,
+                                                &coordinate_count, &parameters, &parameter_count, 3, -1, 0,
+                                                0);
+    for (std::size_t k = 0; k < count; ++k) {
+        number.resize(std::max(number.size(), tags[k] + 1), no_index);
+        number[tags[k]] = static_cast<Index>(mesh.points.size());
+        mesh.points.push_back({coordinates[3 * k], coordinates[3 * k + 1], coordinates[3 * k + 2]});
+    }
+}
+
+CapMesh<3> GmshDomain::result() const {
     CapMesh<3> mesh;
-    std::vector<std::pair<std::size_t, std::size_t>> order; // tag, place
-    for (std::size_t k = 0; k < tag_count; ++k) {
-        order.emplace_back(tags[k], k);
+    mesh.points = surface_.points;
+    std::vector<Index> number(last_ + 1, no_index); // of the node with each tag
+    for (Index v = 0; v < tag_.size(); ++v) {
+        number[tag_[v]] = v;
     }
-    std::sort(order.begin(), order.end());
-    std::vector<Index> number(order.empty() ? 1 : order.back().first + 1, no_index);
-    for (const auto& [tag, place] : order) {
-        number[tag] = static_cast<Index>(mesh.points.size());
-        const double* p = coordinates + 3 * place;
-        mesh.points.push_back({p[0], p[1], p[2]});
-    }
+    take_inside(mesh, number);
+    std::size_t* tags = nullptr;
+    std::size_t count = 0;
     std::size_t* corners = nullptr;
     std::size_t corner_count = 0;
-    gmsh.call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", tetrahedron_type,
-                                                        &tags, &tag_count, &corners, &corner_count, -1,
-                                                        std::size_t{0}, std::size_t{1});
+    gmsh_.call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", tetrahedron_type,
+                                                         &tags, &count, &corners, &corner_count, -1,
+                                                         std::size_t{0}, std::size_t{1});
     mesh.cells.resize(corner_count / 4);
     for (std::size_t k = 0; k < corner_count; ++k) {
-        mesh.cells[k / 4][k % 4] = number[corners[k]];
-    }
-    if (!mesh.cells.empty() && signed_measure<3>(corners_of<3, 3>(mesh.cells[0], mesh.points)) < 0) {
-        for (Simplex<3>& cell : mesh.cells) {
-            std::swap(cell[0], cell[1]);
-        }
+        mesh.cells[k / 4][k % 4] = corners[k] < number.size() ? number[corners[k]] : no_index;
     }
     return mesh;
 }
 
-void send_status(const Send& send, std::int32_t status) {
-    const MesherHeading heading{status, 0, 0, 0};
+void send_failure(const Send& send, std::int32_t status, const std::string& said) {
+    MesherHeading heading{status, 0, 0, 0, {}};
+    said.copy(heading.said.data(), heading.said.size() - 1);
     send(&heading, sizeof heading);
 }
 
-void mesh_and_send(const Surface<3>& surface, const Components& parts, const SizeField<3>& size,
-                   const Send& send) {
-    // Gmsh has an older TetGen inside: without DEEPBIND it would call ours, and crash.
-    void* library = dlopen(SLABHULL_GMSH_SONAME, RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
+void mesh_and_send(const Surface<3>& surface, const Components& parts, const Solids& solids,
+                   const SizeField<3>& size, const Send& send) {
+    // In a world of its own: Gmsh has parts of TetGen inside, and would call those of ours, and crash.
+    void* library = dlmopen(LM_ID_NEWLM, SLABHULL_GMSH_SONAME, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) {
-        return send_status(send, no_library);
+        return send_failure(send, no_library, dlerror());
     }
     try {
         const Gmsh gmsh{library};
@@ -190,23 +250,25 @@ void mesh_and_send(const Surface<3>& surface, const Components& parts, const Siz
         char* arguments = program.data();
         gmsh.call<decltype(gmshInitialize)>("gmshInitialize", 1, &arguments, 0);
         set_options(gmsh, size);
-        add_domain(gmsh, surface, parts);
+        const GmshDomain domain{gmsh, surface, parts, solids};
         gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 3);
-        const CapMesh<3> mesh = result_of(gmsh);
-        const MesherHeading heading{0, static_cast<std::int64_t>(mesh.points.size()),
-                                    static_cast<std::int64_t>(mesh.cells.size()), 0};
+        const CapMesh<3> mesh = domain.result();
+        const MesherHeading heading{0,
+                                    static_cast<std::int64_t>(mesh.points.size()),
+                                    static_cast<std::int64_t>(mesh.cells.size()),
+                                    0,
+                                    {}};
         send(&heading, sizeof heading);
         send(mesh.points.data(), mesh.points.size() * sizeof mesh.points[0]);
         send(mesh.cells.data(), mesh.cells.size() * sizeof mesh.cells[0]);
-    } catch (const GmshFailed&) {
-        send_status(send, gmsh_failed);
+    } catch (const GmshFailed& failure) {
+        send_failure(send, gmsh_failed, failure.said);
     }
 }
 
-std::string status_in_words(std::int32_t status) {
-    return status == no_library ? "is not there: cannot open " SLABHULL_GMSH_SONAME
-                                : "Gmsh's HXT, gave up; it does so on a surface that crosses itself, or for "
-                                  "want of memory";
+std::string failure_in_words(const MesherHeading& heading) {
+    return fmt::format("Gmsh's HXT, {}: {}", heading.status == no_library ? "is not there" : "gave up",
+                       heading.said.data());
 }
 
 } // namespace
@@ -218,8 +280,10 @@ bool has_hxt() {
 CapMesh<3> fill_with_hxt(const Surface<3>& surface, const SizeField<3>& size, const CapOptions&) {
     const Components parts =
         find_components(surface, build_adjacency<2>(surface.facets, surface.points.size()));
+    const Solids solids = find_solids(surface, parts);
     return fill_in_child(
-        surface, [&](const Send& send) { mesh_and_send(surface, parts, size, send); }, status_in_words);
+        surface, [&](const Send& send) { mesh_and_send(surface, parts, solids, size, send); },
+        failure_in_words);
 }
 
 } // namespace slabhull

@@ -87,7 +87,7 @@ TetgenInput::TetgenInput(const Surface<3>& surface, const std::vector<Point<3>>&
 /// corner i, and its -1 for no neighbour has the bits of no_index.
 void send_mesh(const Send& send, const tetgenio& mesh) {
     static_assert(sizeof(int) == sizeof(Index) && sizeof(Point<3>) == 3 * sizeof(REAL));
-    const MesherHeading heading{0, mesh.numberofpoints, mesh.numberoftetrahedra, mesh.numberoftetrahedra};
+    const MesherHeading heading{0, mesh.numberofpoints, mesh.numberoftetrahedra, mesh.numberoftetrahedra, {}};
     const std::size_t list = static_cast<std::size_t>(mesh.numberoftetrahedra) * sizeof(Simplex<3>);
     send(&heading, sizeof heading);
     send(mesh.pointlist, static_cast<std::size_t>(mesh.numberofpoints) * sizeof(Point<3>));
@@ -115,15 +115,15 @@ void mesh_and_send(const Surface<3>& surface, const std::vector<Point<3>>& holes
     } catch (const std::bad_alloc&) {
         status = out_of_memory;
     }
-    const MesherHeading heading{status, 0, 0, 0};
+    const MesherHeading heading{status, 0, 0, 0, {}};
     send(&heading, sizeof heading);
 }
 
 // --- In the parent
 // ----------------------------------------------------------------------------------------------
 
-std::string thrown_in_words(std::int32_t status) {
-    switch (status) {
+std::string thrown_in_words(const MesherHeading& heading) {
+    switch (heading.status) {
     case out_of_memory:
         return "ran out of memory";
     case 3:
@@ -134,7 +134,7 @@ std::string thrown_in_words(std::int32_t status) {
     case 10:
         return "did not accept the surface";
     default:
-        return fmt::format("gave up with its internal error {}", status);
+        return fmt::format("gave up with its internal error {}", heading.status);
     }
 }
 

@@ -22,14 +22,14 @@ namespace slabhull {
 
 namespace {
 
-/// How far a block's load may be from its share, as part of that: planes nearer to it come first.
+/// How far a block's load may be from its share, as part of that: planes nearer to it come first, those that
+/// graze the boundary last.
 constexpr std::array<double, 3> imbalances{0.03, 0.1, 0.3};
-/// Planes looked at for each direction, and tried in all.
+/// Planes looked at for each direction, and tried of them all.
 constexpr std::size_t offsets = 7;
 constexpr std::size_t tries = 8;
-/// Facets within so many spacings of a plane, and steeper than so much (cosine of the angle between the
-/// normals), are what a good plane keeps away from; in triangles of the interface that one more of them is
-/// worth.
+/// Facets within so many spacings of a plane, the cosine of the angle between the normals above this, lie
+/// along it: they would make thin wedges. What one counts in triangles of the interface.
 constexpr double near_plane = 1.5;
 constexpr double along_plane = 0.7;
 constexpr double price_along = 10;
@@ -42,7 +42,10 @@ struct Block {
 struct CutPlane {
     Point<3> normal{};
     double offset = 0;
-    double price = 0;
+    double triangles = 0; ///< of the interface
+    double along = 0;     ///< facets of the boundary that lie along it
+
+    double price() const { return triangles + price_along * along; }
 };
 
 /// The axes, and the diagonals of their planes and of the cube.
@@ -68,25 +71,27 @@ public:
 
     /// The part below a plane, which wants `share` of the load, and that above; adds the interface's points.
     std::optional<std::pair<Block, Block>> run(double share, Array<Point<3>>& points) const {
+        std::vector<CutPlane> grazing;
         for (const double imbalance : imbalances) {
             std::vector<CutPlane> planes = planes_near(share, imbalance);
-            std::stable_sort(planes.begin(), planes.end(),
-                             [](const CutPlane& a, const CutPlane& b) { return a.price < b.price; });
-            planes.resize(std::min(planes.size(), tries));
-            for (const CutPlane& plane : planes) {
-                try {
-                    return cut(PlaneFrame{plane.normal, plane.offset}, points);
-                } catch (const GeometryError&) { // this plane will not do
-                }
+            const auto clear = std::stable_partition(planes.begin(), planes.end(),
+                                                     [](const CutPlane& plane) { return plane.along == 0; });
+            grazing.insert(grazing.end(), clear, planes.end());
+            planes.erase(clear, planes.end());
+            if (auto parts = cut_by_best(std::move(planes), points)) {
+                return parts;
             }
         }
-        return std::nullopt;
+        return cut_by_best(std::move(grazing), points);
     }
 
 private:
     std::vector<CutPlane> planes_near(double share, double imbalance) const;
     std::vector<CutPlane> planes_across(const Point<3>& normal, double share, double imbalance) const;
-    double price(const CutPlane& plane) const;
+    double triangles_in(const CutPlane& plane) const;
+    double facets_along(const CutPlane& plane) const;
+    std::optional<std::pair<Block, Block>> cut_by_best(std::vector<CutPlane> planes,
+                                                       Array<Point<3>>& points) const;
     std::pair<Block, Block> cut(const PlaneFrame& plane, Array<Point<3>>& points) const;
     Array<Facet<3>> side(const std::vector<char>& above, char which) const;
     void require_sound(const BlockInterface& interface, const Array<Facet<3>>& facets) const;
@@ -129,37 +134,56 @@ std::vector<CutPlane> BlockCutter::planes_across(const Point<3>& normal, double 
         const double place = 2.0 * static_cast<double>(planes.size()) / (offsets - 1) - 1;
         if (sum >= share * (1 + imbalance * place) * total) {
             CutPlane plane{normal, along[k].first};
-            plane.price = price(plane);
+            plane.triangles = triangles_in(plane);
+            plane.along = facets_along(plane);
             planes.push_back(plane);
         }
     }
     return planes;
 }
 
-/// Triangles of the interface, and more for facets along it.
-double BlockCutter::price(const CutPlane& plane) const {
+/// What the interface will have, roughly.
+double BlockCutter::triangles_in(const CutPlane& plane) const {
     double triangles = 0;
     for (const LoadSample& sample : block_.load) {
         if (std::abs(detail::dot(plane.normal, sample.at) - plane.offset) < sample.spacing) {
             triangles += sample.cubes; // in a slice two spacings thick; two triangles to a square
         }
     }
-    double along = 0;
+    return triangles;
+}
+
+double BlockCutter::facets_along(const CutPlane& plane) const {
+    const auto& p = part_.surface.points;
+    double count = 0;
     for (const Facet<3>& facet : part_.surface.facets) {
-        double lowest = std::numeric_limits<double>::infinity();
+        double nearest = std::numeric_limits<double>::infinity();
         for (const Index v : facet) {
-            const double height = detail::dot(plane.normal, part_.surface.points[v]) - plane.offset;
-            lowest = std::min(lowest, std::abs(height) / spacing_[v]);
+            const double height = detail::dot(plane.normal, p[v]) - plane.offset;
+            nearest = std::min(nearest, std::abs(height) / spacing_[v]);
         }
-        if (lowest < near_plane) {
-            const auto& p = part_.surface.points;
+        if (nearest < near_plane) {
             const Point<3> normal = detail::cross(detail::minus(p[facet[1]], p[facet[0]]),
                                                   detail::minus(p[facet[2]], p[facet[0]]));
             const double cosine = std::abs(detail::dot(plane.normal, normal)) / detail::norm(normal);
-            along += cosine > along_plane ? 1 : 0;
+            count += cosine > along_plane ? 1 : 0;
         }
     }
-    return triangles + price_along * along;
+    return count;
+}
+
+std::optional<std::pair<Block, Block>> BlockCutter::cut_by_best(std::vector<CutPlane> planes,
+                                                                Array<Point<3>>& points) const {
+    std::stable_sort(planes.begin(), planes.end(),
+                     [](const CutPlane& a, const CutPlane& b) { return a.price() < b.price(); });
+    planes.resize(std::min(planes.size(), tries));
+    for (const CutPlane& plane : planes) {
+        try {
+            return cut(PlaneFrame{plane.normal, plane.offset}, points);
+        } catch (const GeometryError&) { // this plane will not do
+        }
+    }
+    return std::nullopt;
 }
 
 Array<Facet<3>> BlockCutter::side(const std::vector<char>& above, char which) const {

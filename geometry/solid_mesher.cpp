@@ -42,7 +42,7 @@ bool has_mesher(SolidMesher mesher) {
 }
 
 CapMesh<3> fill_in_child(const Surface<3>& surface, const std::function<void(const Send&)>& job,
-                         const std::function<std::string(std::int32_t)>& words) {
+                         const std::function<std::string(const MesherHeading&)>& words) {
     CapMesh<3> mesh;
     MesherHeading heading;
     const ChildEnd end =
@@ -50,7 +50,7 @@ CapMesh<3> fill_in_child(const Surface<3>& surface, const std::function<void(con
     if (!end.received || heading.status != 0) {
         throw GeometryError{fmt::format("the 3D mesher, given a surface of {} triangles and {} points, {}",
                                         surface.facets.size(), surface.points.size(),
-                                        end.received ? words(heading.status) : end_in_words(end))};
+                                        end.received ? words(heading) : end_in_words(end))};
     }
     if (mesh.neighbors.size() != mesh.cells.size()) {
         mesh.neighbors = build_adjacency<3>(mesh.cells, mesh.points.size()).neighbors;

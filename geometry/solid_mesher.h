@@ -6,6 +6,7 @@
 #include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/geometry/size_field.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -26,7 +27,8 @@ struct MesherHeading {
     std::int32_t status = 0; ///< 0 for success, else what went wrong
     std::int64_t points = 0;
     std::int64_t cells = 0;
-    std::int64_t neighbors = 0; ///< as many as cells, or none: then they are found here
+    std::int64_t neighbors = 0;   ///< as many as cells, or none: then they are found here
+    std::array<char, 200> said{}; ///< the mesher's own words, for errors
 };
 
 /// Longest edge of a cell, in wanted spacings, that is still let be: makes the mean edge about as long as the
@@ -34,8 +36,8 @@ struct MesherHeading {
 inline constexpr double longest_edge = 1.7;
 
 /// Runs `job` in a child and takes the mesh that it sends.
-/// Throws GeometryError saying how the child ended, with a status in `words`.
+/// Throws GeometryError saying how the child ended, `words` for a heading that is not of success.
 CapMesh<3> fill_in_child(const Surface<3>& surface, const std::function<void(const Send&)>& job,
-                         const std::function<std::string(std::int32_t status)>& words);
+                         const std::function<std::string(const MesherHeading&)>& words);
 
 } // namespace slabhull
