@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <numbers>
+#include <span>
 
 namespace slabhull {
 
@@ -31,9 +33,10 @@ void require_countable(const SizeField<2>& field) {
 template<>
 CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
     CapMesh<2> mesh = constrained_delaunay(surface);
-    const CapSpacing field{surface, options.grading};
-    require_countable(field.wanted());
-    refine_delaunay(mesh, field, options.min_angle);
+    const std::span<const Point<2>> points{surface.points};
+    const SizeField<2> field{points, boundary_spacing<2>(points, surface.facets), options.grading};
+    require_countable(field);
+    refine_delaunay(mesh, {surface, std::cref(field), options.grading.growth}, options.min_angle);
 
     order_along_curve<2>(mesh, surface.points.size());
     verify_cap<2>(mesh, surface);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace slabhull {
 
@@ -25,17 +26,14 @@ double distance(const Point<2>& a, const Point<2>& b) {
 
 } // namespace
 
-CapSpacing::CapSpacing(const Surface<2>& boundary, const Grading& grading)
-    : CapSpacing{boundary, boundary_spacing<2>(std::span<const Point<2>>{boundary.points}, boundary.facets),
-                 grading} {}
-
-CapSpacing::CapSpacing(const Surface<2>& boundary, const std::vector<double>& spacing, const Grading& grading)
-    : wanted_{std::span<const Point<2>>{boundary.points}, spacing, grading} {
+CapSpacing::CapSpacing(const Surface<2>& boundary, Wanted wanted, double growth)
+    : wanted_{std::move(wanted)} {
     find_long_edges(boundary);
     if (!long_edges_.empty()) {
+        const std::span<const Point<2>> points{boundary.points};
         steepest_.emplace(
-            std::span<const Point<2>>{boundary.points}, spacing,
-            Grading{std::max(grading.growth, steepest_growth), std::numeric_limits<double>::infinity()});
+            points, boundary_spacing<2>(points, boundary.facets),
+            Grading{std::max(growth, steepest_growth), std::numeric_limits<double>::infinity()});
     }
 }
 

@@ -6,25 +6,26 @@
 #include "slabhull/geometry/size_field.h"
 #include "slabhull/topology/spatial_mesh.h"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 namespace slabhull {
 
-/// Spacing for the triangles of a planar domain whose boundary edges must not be split: that of a SizeField,
+/// Spacing for the triangles of a planar domain whose boundary edges must not be split: what is wanted,
 /// raised around boundary edges that are much longer than it. A triangle on such an edge is as large as the
 /// edge, whatever is wanted there, and only neighbours that grow to meet it have good angles.
 class CapSpacing {
 public:
-    CapSpacing(const Surface<2>& boundary, const Grading& grading);
+    using Wanted = std::function<double(const Point<2>&)>;
+
+    /// `growth` is how fast the wanted spacing grows at most per unit of distance.
+    CapSpacing(const Surface<2>& boundary, Wanted wanted, double growth);
 
     double operator()(const Point<2>& x) const {
         const double wanted = wanted_(x);
         return long_edges_.empty() ? wanted : raised(x, wanted);
     }
-
-    /// Spacing without regard to long edges.
-    const SizeField<2>& wanted() const { return wanted_; }
 
 private:
     struct LongEdge {
@@ -32,11 +33,10 @@ private:
         double size; ///< spacing at its middle
     };
 
-    CapSpacing(const Surface<2>& boundary, const std::vector<double>& spacing, const Grading& grading);
     void find_long_edges(const Surface<2>& boundary);
     double raised(const Point<2>& x, double wanted) const;
 
-    SizeField<2> wanted_;
+    Wanted wanted_;
     std::vector<LongEdge> long_edges_;
     std::optional<BoxTree<2>> reach_;      ///< where each long edge counts
     std::optional<SizeField<2>> steepest_; ///< what short edges nearby allow

@@ -2,23 +2,16 @@
 // TetGen 1.5 (H. Si, ACM TOMS 41(2), 2015) as the mesher of 3D caps. It crashes on surfaces that cross
 // themselves, prints, keeps global state and throws bare numbers: so it runs in a child process, and what it
 // sends is verified.
-#include "slabhull/geometry/cap_mesher.h"
+#include "solid_mesher.h"
 
-#include "child_process.h"
 #include "hole_seeds.h"
-
-#include "slabhull/core/error.h"
-#include "slabhull/geometry/embedding.h"
-#include "slabhull/geometry/mesh_order.h"
 
 #include <fmt/format.h>
 #include <tetgen.h>
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <cstdint>
-#include <limits>
 #include <new>
 #include <string>
 #include <vector>
@@ -27,12 +20,6 @@ namespace slabhull {
 
 namespace {
 
-/// First words from the child.
-struct Heading {
-    std::int32_t status = 0; ///< 0 for success, else what TetGen threw
-    std::int64_t points = 0;
-    std::int64_t cells = 0;
-};
 constexpr std::int32_t out_of_memory = 1; // TetGen's own number for it
 
 // --- In the child
@@ -47,10 +34,6 @@ double squared_distance(const REAL* p, const REAL* q) {
     const double z = p[2] - q[2];
     return x * x + y * y + z * z;
 }
-
-/// Longest edge of a cell, in wanted spacings, that is still let be: makes the mean edge about as long as the
-/// spacing.
-constexpr double longest_edge = 1.7;
 
 /// Whether a tetrahedron is to be split for its size. TetGen hands in a volume of 0, so look at the corners.
 /// (Its own way, a size per boundary vertex, interpolates between opposite walls and knows neither growth nor
@@ -104,7 +87,7 @@ TetgenInput::TetgenInput(const Surface<3>& surface, const std::vector<Point<3>>&
 /// corner i, and its -1 for no neighbour has the bits of no_index.
 void send_mesh(const Send& send, const tetgenio& mesh) {
     static_assert(sizeof(int) == sizeof(Index) && sizeof(Point<3>) == 3 * sizeof(REAL));
-    const Heading heading{0, mesh.numberofpoints, mesh.numberoftetrahedra};
+    const MesherHeading heading{0, mesh.numberofpoints, mesh.numberoftetrahedra, mesh.numberoftetrahedra, {}};
     const std::size_t list = static_cast<std::size_t>(mesh.numberoftetrahedra) * sizeof(Simplex<3>);
     send(&heading, sizeof heading);
     send(mesh.pointlist, static_cast<std::size_t>(mesh.numberofpoints) * sizeof(Point<3>));
@@ -132,15 +115,15 @@ void mesh_and_send(const Surface<3>& surface, const std::vector<Point<3>>& holes
     } catch (const std::bad_alloc&) {
         status = out_of_memory;
     }
-    const Heading heading{status, 0, 0};
+    const MesherHeading heading{status, 0, 0, 0, {}};
     send(&heading, sizeof heading);
 }
 
 // --- In the parent
 // ----------------------------------------------------------------------------------------------
 
-std::string thrown_in_words(std::int32_t status) {
-    switch (status) {
+std::string thrown_in_words(const MesherHeading& heading) {
+    switch (heading.status) {
     case out_of_memory:
         return "ran out of memory";
     case 3:
@@ -151,80 +134,21 @@ std::string thrown_in_words(std::int32_t status) {
     case 10:
         return "did not accept the surface";
     default:
-        return fmt::format("gave up with its internal error {}", status);
-    }
-}
-
-std::string end_in_words(const ChildEnd& end, const Heading& heading) {
-    if (end.received) {
-        return thrown_in_words(heading.status);
-    }
-    if (end.signal == SIGKILL) {
-        return "was killed, most likely for want of memory (it needs about 300 bytes per tetrahedron)";
-    }
-    const std::string how =
-        end.signal != 0 ? fmt::format("signal {}", end.signal) : fmt::format("exit code {}", end.exit_code);
-    return fmt::format("crashed ({}); it does so on a surface that crosses, touches or nearly touches itself",
-                       how);
-}
-
-bool receive_mesh(const Receive& receive, Heading& heading, CapMesh<3>& mesh) {
-    if (!receive(&heading, sizeof heading)) {
-        return false;
-    }
-    mesh.points.resize(static_cast<std::size_t>(heading.points));
-    mesh.cells.resize(static_cast<std::size_t>(heading.cells));
-    mesh.neighbors.resize(static_cast<std::size_t>(heading.cells));
-    const auto fill = [&](auto& array) { return receive(array.data(), array.size() * sizeof array[0]); };
-    return fill(mesh.points) && fill(mesh.cells) && fill(mesh.neighbors);
-}
-
-/// TetGen's indices are ints.
-void require_fits(const Surface<3>& surface) {
-    constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
-    if (surface.points.size() > most || surface.facets.size() > most / 3) {
-        throw LimitError{fmt::format("the 3D mesher cannot number {} points and {} facets",
-                                     surface.points.size(), surface.facets.size())};
-    }
-}
-
-void require_sane(const CapOptions& options) {
-    if (!(options.radius_edge >= 1 && options.radius_edge <= 100)) {
-        throw UsageError{
-            fmt::format("the radius-edge bound must be between 1 and 100, not {}", options.radius_edge)};
-    }
-    if (!(options.min_dihedral >= 0 && options.min_dihedral <= 20)) {
-        throw UsageError{fmt::format("the wanted dihedral angle must be between 0 and 20 degrees, not {}",
-                                     options.min_dihedral)};
+        return fmt::format("gave up with its internal error {}", heading.status);
     }
 }
 
 } // namespace
 
-template<>
-CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options) {
-    require_sane(options);
-    require_fits(surface);
-    require_domain_boundary(surface, {}, false); // TetGen crashes, or never ends, on anything else
-    const std::vector<Point<3>> holes = hole_seeds(surface);
-    const SizeField<3> size{surface.points, boundary_spacing<3>(surface.points, surface.facets),
-                            options.grading};
+bool has_tetgen() {
+    return true;
+}
 
-    CapMesh<3> mesh;
-    Heading heading;
-    const ChildEnd end =
-        run_in_child([&](const Send& send) { mesh_and_send(surface, holes, size, options, send); },
-                     [&](const Receive& receive) { return receive_mesh(receive, heading, mesh); });
-    if (!end.received || heading.status != 0) {
-        throw GeometryError{fmt::format("the 3D mesher, given a surface of {} triangles and {} points, {}",
-                                        surface.facets.size(), surface.points.size(),
-                                        end_in_words(end, heading))};
-    }
-    if (options.curve_order) {
-        order_along_curve<3>(mesh, surface.points.size());
-    }
-    verify_cap(mesh, surface);
-    return mesh;
+CapMesh<3> fill_with_tetgen(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options) {
+    const std::vector<Point<3>> holes = hole_seeds(surface);
+    return fill_in_child(
+        surface, [&](const Send& send) { mesh_and_send(surface, holes, size, options, send); },
+        thrown_in_words);
 }
 
 } // namespace slabhull

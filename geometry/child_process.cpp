@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -147,6 +148,9 @@ void settle_child(pid_t parent) {
 
 ChildEnd run_in_child(const std::function<void(const Send&)>& job,
                       const std::function<bool(const Receive&)>& receive) {
+    // One start at a time: a child that inherited the writing end of another's pipe would keep it open.
+    static std::mutex starting;
+    std::unique_lock start{starting};
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) {
         refuse("no pipe");
@@ -166,6 +170,7 @@ ChildEnd run_in_child(const std::function<void(const Send&)>& job,
     }
     Child child{id};
     out.close_now(); // so that the child's end is the end of the stream
+    start.unlock();
     const bool received =
         receive([&](void* bytes, std::size_t size) { return read_all(in.number(), bytes, size); });
     in.close_now();

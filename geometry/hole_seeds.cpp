@@ -19,16 +19,13 @@ namespace slabhull {
 
 namespace {
 
+using detail::cross;
 using detail::dot;
 using detail::minus;
 using detail::plus;
 using detail::times;
 
 constexpr double unreached = std::numeric_limits<double>::infinity();
-
-Point<3> cross(const Point<3>& a, const Point<3>& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// Distance, in lengths of `direction`, at which a ray goes through a triangle (Moeller and Trumbore 1997).
 double distance_along(const Point<3>& from, const Point<3>& direction, const FacetCorners<3>& t) {

@@ -47,6 +47,10 @@ double dot(const std::array<double, N>& a, const std::array<double, N>& b) {
     return sum;
 }
 
+inline std::array<double, 3> cross(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 template<std::size_t N>
 double norm(const std::array<double, N>& a) {
     return std::sqrt(dot(a, a));

@@ -226,9 +226,7 @@ private:
 
     void read_cap() {
         KeyTable table = root_.optional_table("cap");
-        if (table.has("mesher")) {
-            table.choice<int>("mesher", {{case_.dimension == 3 ? "tetgen" : "cdt", 0}});
-        }
+        read_cap_mesher(table);
         if (table.has("size")) {
             case_.cap_size = table.positive("size");
         }
@@ -246,6 +244,25 @@ private:
         }
         read_cap_reuse(table);
         table.require_all_known();
+    }
+
+    void read_cap_mesher(KeyTable& table) {
+        if (table.has("mesher") && case_.dimension == 2) {
+            table.choice<int>("mesher", {{"cdt", 0}});
+        } else if (table.has("mesher")) {
+            case_.cap_mesher = table.choice<SolidMesher>(
+                "mesher", {{"tetgen", SolidMesher::tetgen}, {"hxt", SolidMesher::hxt}});
+            if (!has_mesher(case_.cap_mesher)) {
+                table.fail("mesher", "a mesher that this build has; configure it with -DSLABHULL_GMSH=ON for "
+                                     "\"hxt\" and -DSLABHULL_TETGEN=ON for \"tetgen\"");
+            }
+        }
+        if (table.has("blocks")) {
+            if (case_.dimension == 2) {
+                table.fail("blocks", "nothing for dimension = 2, where a cap is meshed in one piece");
+            }
+            case_.cap_blocks = table.integer("blocks", 1, 4096);
+        }
     }
 
     void read_cap_reuse(KeyTable& table) {

@@ -59,6 +59,13 @@ Json peaks_as_json() {
     return {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};
 }
 
+const char* mesher_name(const Case& the_case) {
+    if (the_case.dimension == 2) {
+        return "cdt";
+    }
+    return the_case.cap_mesher == SolidMesher::hxt ? "hxt" : "tetgen";
+}
+
 Json settings_as_json(const Case& the_case) {
     return {{"title", the_case.title},
             {"dimension", the_case.dimension},
@@ -71,7 +78,8 @@ Json settings_as_json(const Case& the_case) {
             {"substeps", the_case.trajectory.substeps},
             {"split", split_name(the_case.split)},
             {"diagonals", the_case.diagonals == Diagonals::shape ? "shape" : "smallest-id"},
-            {"cap_mesher", the_case.dimension == 3 ? "tetgen" : "cdt"},
+            {"cap_mesher", mesher_name(the_case)},
+            {"cap_blocks", the_case.cap_blocks > 0 ? Json(the_case.cap_blocks) : Json()},
             {"cap_size", std::isfinite(the_case.cap_size) ? Json(the_case.cap_size) : Json()},
             {"cap_growth", the_case.cap_growth},
             {"cap_quality", the_case.cap_quality},
@@ -281,6 +289,9 @@ private:
                                                                         {"mean", moved.mean}};
         }
         json["cap"] = {{"made", slab.cap_moved ? "moved" : "meshed"}};
+        if (!slab.cap_moved) {
+            json["cap"]["blocks"] = slab.cap_blocks;
+        }
         if (slab.moved_angle) {
             json["cap"]["angle_when_moved"] = *slab.moved_angle;
         }

@@ -107,6 +107,8 @@ CapOptions cap_options(const Case& the_case) {
     CapOptions options;
     options.grading = {the_case.cap_growth, the_case.cap_size};
     options.radius_edge = the_case.cap_quality;
+    options.mesher = the_case.cap_mesher;
+    options.blocks = the_case.cap_blocks;
     options.curve_order = the_case.cap_curve_order;
     return options;
 }

@@ -24,6 +24,7 @@ CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const 
         }
     }
     CapMesh<D> mesh = mesh_cap<D>(sweep.at(sweep.layers()), settings.cap);
+    slab.cap_blocks = mesh.blocks;
     clock.book("cap meshing");
     return mesh;
 }

@@ -9,8 +9,17 @@
 
 namespace slabhull {
 
+/// What fills 3D domains: TetGen, or HXT, a part of Gmsh.
+enum class SolidMesher { tetgen, hxt };
+/// Whether this build can use it.
+bool has_mesher(SolidMesher mesher);
+
 struct CapOptions {
     Grading grading;
+    SolidMesher mesher = SolidMesher::tetgen; ///< (D = 3)
+    /// Parts that the domain is meshed in, each by a process of its own (D = 3). 0: one, unless the memory
+    /// that is free now would not do.
+    int blocks = 0;
     double radius_edge = 1.414; ///< largest ratio of circumradius to shortest edge (D = 3)
     double min_dihedral = 10;   ///< wanted dihedral angle in degrees (D = 3)
     double min_angle = 20;      ///< wanted angle in degrees (D = 2)
@@ -25,22 +34,24 @@ struct CapMesh {
     Array<Point<D>> points; ///< those of the surface first, in order and bit for bit, then new interior ones
     Array<Simplex<D>> cells;
     Array<Neighbors<D>> neighbors; ///< no_index across the boundary
+    int blocks = 1;                ///< in which it was meshed
 };
 
 /// Meshes the domain bounded by `surface`, whose facets all come back untouched, with nothing added on
 /// them.
-/// D = 3: TetGen in a child process, so that its crashes are ours to report. D = 2: a constrained Delaunay
-/// triangulation (CGAL) refined without ever splitting a boundary edge. The spacing inside is that of a
-/// SizeField made from the boundary's own spacing and `options.grading`: the mean edge is about as long.
-/// Cells on the boundary are as large as its facets, whatever is asked for.
-/// Needs: the boundary of a domain, see require_domain_boundary(); call that first, with the user's names
-/// for the facets. For D = 3 it is called again, at 2 % of the time: TetGen crashes, or never ends, on
-/// anything else.
+/// D = 3: TetGen or HXT in a child process, so that its crashes are ours to report; in several blocks, as
+/// many of them at once as there are threads (thread_count()), whose interfaces are meshed first. D = 2: a
+/// constrained Delaunay triangulation (CGAL) refined without ever splitting a boundary edge. The spacing
+/// inside is that of a SizeField made from the boundary's own spacing and `options.grading`: the mean edge is
+/// about as long. Cells on the boundary are as large as its facets, whatever is asked for. Needs: the
+/// boundary of a domain, see require_domain_boundary(); call that first, with the user's names for the
+/// facets. For D = 3 it is called again, at 2 % of the time: TetGen crashes, or never ends, on anything else.
 /// Throws GeometryError when the mesher fails or its boundary differs from the surface; it names the
 /// facets.
-/// UsageError for a radius_edge outside [1, 100] or a min_dihedral outside [0, 20] (D = 3).
-/// Cost (D = 3): about 6 microseconds per tetrahedron, and some 300 bytes of each in the child.
-/// Deterministic.
+/// UsageError for a radius_edge outside [1, 100], a min_dihedral outside [0, 20], blocks outside [0, 4096],
+/// or a mesher that this build does not have (D = 3). Cost (D = 3): about 6 microseconds per tetrahedron, and
+/// some 300 bytes of each in the child. Deterministic, whatever the number of threads; with 0 blocks, for the
+/// same number of blocks.
 template<int D>
 CapMesh<D> mesh_cap(const Surface<D>& surface, const CapOptions& options);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/geometry/displacement_series.h"
 #include "slabhull/geometry/trajectory.h"
 #include "slabhull/io/formats.h"
@@ -130,7 +131,9 @@ struct Case {
     double cap_size = std::numeric_limits<double>::infinity();
     double cap_growth = 0.3;
     double cap_quality = 1.414;
-    bool cap_curve_order = true; ///< `cap.order = "curve"`
+    bool cap_curve_order = true;                  ///< `cap.order = "curve"`
+    SolidMesher cap_mesher = SolidMesher::tetgen; ///< D = 3
+    int cap_blocks = 0;                           ///< D = 3; 0: chosen by memory
     CapReuse cap_reuse = CapReuse::none;
     double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
 

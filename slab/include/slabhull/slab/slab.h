@@ -32,6 +32,7 @@ struct Slab {
     std::map<PatchNumber, ProjectionReport> projected;
     bool cap_moved = false; ///< the terminating cap is the initial one, moved; else meshed anew ...
     std::optional<double> moved_angle; ///< ... where tried, the smallest angle (degrees) that moving gave
+    int cap_blocks = 1;                ///< in which it was meshed, when it was
     IdCounter next_ids;                ///< what the next slab counts from
 
     /// A copy, made from the hull.

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "../../geometry/cap_blocks.h"
+#include "../../geometry/domain_blocks.h"
+#include "../../geometry/domain_load.h"
+#include "../../geometry/surface_division.h"
+#include "rooms.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/core/memory.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/geometry/embedding.h"
+#include "slabhull/geometry/shapes.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+using namespace slabhull;
+using namespace slabhull::specimens;
+
+namespace {
+
+SizeField<3> size_of(const Surface<3>& surface, const Grading& grading) {
+    return {surface.points, boundary_spacing<3>(surface.points, surface.facets), grading};
+}
+
+/// A sphere in a cube, both with triangles of edge 1.2 / divisions.
+Surface<3> sphere_in_cube(int divisions) {
+    return join<3>(std::array{ellipsoid_body<3>({0, 0, 0}, {1, 1, 1}, divisions, {1, "sphere"}),
+                              box_surface<3>({-3, -3, -3}, {3, 3, 3}, 1.2 / divisions, {2, "box"})});
+}
+
+CapOptions in_blocks(int blocks, double largest = std::numeric_limits<double>::infinity()) {
+    CapOptions options;
+    options.blocks = blocks;
+    options.grading.largest = largest;
+    return options;
+}
+
+DomainBlocks cut(const Surface<3>& surface, const Grading& grading, int count) {
+    const SizeField<3> size = size_of(surface, grading);
+    return cut_domain(surface, size, grading.growth, sample_load(surface, size), count);
+}
+
+double smallest_angle(const Array<Point<3>>& points, const Facet<3>& facet) {
+    return dihedral_angles<2, 3>(corners_of<2, 3>(facet, points)).smallest;
+}
+
+} // namespace
+
+TEST_CASE("the load of a domain of one spacing is its volume in cubes", "[blocks]") {
+    const Surface<3> surface = with_bodies(cube(3, 6), {ball({0.5, 0, 0}, 1, 8)});
+    const SizeField<3> size = size_of(surface, {0, 0.1});
+    CHECK(cubes_in(sample_load(surface, size)) == Approx(enclosed(surface) / 0.001).epsilon(0.02));
+}
+
+TEST_CASE("the load of a graded domain is the integral of h^-3", "[blocks]") {
+    const Surface<3> surface = with_bodies(cube(3, 4), {ball({0.5, 0, 0}, 1, 8)});
+    const SizeField<3> size = size_of(surface, {0.3});
+    constexpr int n = 150;
+    constexpr double step = 6.0 / n;
+    double sum = 0;
+    for (int k = 0; k < n * n * n; ++k) {
+        const Point<3> p{-3 + step * (k % n + 0.5), -3 + step * (k / n % n + 0.5),
+                         -3 + step * (k / n / n + 0.5)};
+        const double from_ball = std::hypot(p[0] - 0.5, p[1], p[2]);
+        sum += from_ball > 1 ? std::pow(step / size(p), 3) : 0;
+    }
+    CHECK(cubes_in(sample_load(surface, size)) == Approx(sum).epsilon(0.1));
+}
+
+TEST_CASE("a surface is divided along a grid line, also when the plane is between two", "[blocks]") {
+    const Surface<3> surface = box_surface<3>({0, 0, 0}, {8, 8, 8}, 1, {1, "box"});
+    const Adjacency<2> adjacency = build_adjacency<2>(surface.facets, surface.points.size());
+    const std::vector<double> spacing(surface.points.size(), 1.0);
+    for (const double offset : {4.0, 4.2, 4.4, 4.6, 5.1}) {
+        INFO(offset);
+        std::vector<double> height;
+        for (const Point<3>& p : surface.points) {
+            height.push_back(p[0] - offset);
+        }
+        const auto above = divide_surface(surface, adjacency, height, spacing);
+        const Array<Facet<2>> rim = edges_between(surface, adjacency, above);
+        CHECK(rim.size() == 32);
+        for (const Facet<2>& edge : rim) {
+            CHECK(std::abs(height[edge[0]]) < 0.7);
+            CHECK(surface.points[edge[0]][0] == surface.points[edge[1]][0]);
+        }
+    }
+}
+
+TEST_CASE("blocks are boundaries of domains that fill the domain together", "[blocks]") {
+    for (const Room& room : rooms()) {
+        for (const int count : {2, 3, 7}) {
+            INFO(room.name << " in " << count);
+            const DomainBlocks blocks = cut(room.boundary, {0.3}, count);
+            double sum = 0;
+            for (const Array<Facet<3>>& facets : blocks.facets) {
+                const Surface<3> surface = surface_of_block(blocks.points, facets).surface;
+                CHECK_NOTHROW(require_domain_boundary(surface, {}, false));
+                CHECK(enclosed(surface) > 0);
+                sum += enclosed(surface);
+            }
+            CHECK(sum == Approx(enclosed(room.boundary)).epsilon(1e-9));
+            CHECK(
+                std::equal(room.boundary.points.begin(), room.boundary.points.end(), blocks.points.begin()));
+        }
+    }
+}
+
+TEST_CASE("interfaces are in two blocks, once either way round, and well shaped", "[blocks]") {
+    const Surface<3> surface = sphere_in_cube(6);
+    const Grading grading{0.3, 0.2};
+    const DomainBlocks blocks = cut(surface, grading, 4);
+    REQUIRE(blocks.facets.size() == 4);
+    std::map<Facet<3>, int> seen; // by vertices, turned so that the smallest is first
+    std::size_t facets_in_all = 0;
+    for (const Array<Facet<3>>& facets : blocks.facets) {
+        facets_in_all += facets.size();
+        for (Facet<3> facet : facets) {
+            std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
+            ++seen[facet];
+        }
+    }
+    CHECK(seen.size() == facets_in_all);
+    std::size_t inside = 0;
+    double smallest = 180;
+    for (const auto& [facet, times] : seen) {
+        if (seen.count({facet[0], facet[2], facet[1]}) != 0) {
+            ++inside;
+            smallest = std::min(smallest, smallest_angle(blocks.points, facet));
+        }
+    }
+    CHECK(facets_in_all == surface.facets.size() + inside);
+    CHECK(inside > 2 * 3 * 900); // three squares of edge 6 with triangles of edge 0.2
+    CHECK(smallest > 18);
+}
+
+TEST_CASE("blocks want equal shares, also of a load that is all in a corner", "[blocks]") {
+    const Surface<3> surface = with_bodies(cube(3, 4), {ball({2, 2, 2}, 0.3, 8)});
+    const SizeField<3> size = size_of(surface, {0.3});
+    const DomainBlocks blocks = cut(surface, {0.3}, 2);
+    REQUIRE(blocks.facets.size() == 2);
+    const double all = cubes_in(sample_load(surface, size));
+    for (const Array<Facet<3>>& facets : blocks.facets) {
+        const double part = cubes_in(sample_load(surface_of_block(blocks.points, facets).surface, size));
+        CHECK(part / all == Approx(0.5).margin(0.07));
+    }
+}
+
+TEST_CASE("every room is filled in blocks, up to its boundary, which stays as it was", "[blocks]") {
+    for (const Room& room : rooms()) {
+        for (const int count : {2, 5}) {
+            INFO(room.name << " in " << count);
+            const CapMesh<3> mesh = mesh_cap(room.boundary, in_blocks(count));
+            CHECK_NOTHROW(verify_cap(mesh, room.boundary));
+            CHECK(volume(mesh) == Approx(enclosed(room.boundary)).epsilon(1e-9));
+            Array<Point<3>> points = mesh.points;
+            std::sort(points.begin(), points.end());
+            CHECK(std::adjacent_find(points.begin(), points.end()) == points.end());
+        }
+    }
+}
+
+TEST_CASE("blocks cost neither angles nor many cells", "[blocks]") {
+    const Surface<3> surface = sphere_in_cube(6);
+    const CapMesh<3> whole = mesh_cap(surface, in_blocks(1, 0.2));
+    CHECK(whole.blocks == 1);
+    for (const int count : {2, 3, 8}) {
+        const CapMesh<3> mesh = mesh_cap(surface, in_blocks(count, 0.2));
+        CHECK(mesh.blocks == count);
+        CHECK(smallest_dihedral(mesh) > 0.8 * smallest_dihedral(whole));
+        CHECK(static_cast<double>(mesh.cells.size()) ==
+              Approx(static_cast<double>(whole.cells.size())).epsilon(0.02));
+    }
+}
+
+TEST_CASE("blocks give the same bytes on any number of threads", "[blocks]") {
+    const Surface<3> surface = sphere_in_cube(4);
+    for (const bool curve : {true, false}) {
+        CapOptions options = in_blocks(3);
+        options.curve_order = curve;
+        set_thread_count(1);
+        const CapMesh<3> one = mesh_cap(surface, options);
+        for (const int threads : {2, 5}) {
+            set_thread_count(threads);
+            const CapMesh<3> other = mesh_cap(surface, options);
+            CHECK(one.points == other.points);
+            CHECK(one.cells == other.cells);
+            CHECK(one.neighbors == other.neighbors);
+        }
+        set_thread_count(0);
+    }
+}
+
+TEST_CASE("a domain too small to be cut is meshed whole", "[blocks]") {
+    const Surface<3> surface = cube(1, 1);
+    const CapMesh<3> mesh = mesh_cap(surface, in_blocks(64));
+    CHECK_NOTHROW(verify_cap(mesh, surface));
+    CHECK(mesh.blocks < 64);
+}
+
+TEST_CASE("memory decides how many blocks there are", "[blocks]") {
+    CHECK(blocks_that_fit(1e6, 1e9) == 1);
+    CHECK(blocks_that_fit(139e6, 24e9) > 1);
+    int before = 1;
+    for (const double bytes : {1e12, 40e9, 20e9, 16e9}) {
+        const int blocks = blocks_that_fit(100e6, bytes);
+        CHECK(blocks >= before);
+        before = blocks;
+    }
+    CHECK(available_memory() > 1 << 20);
+}
+
+TEST_CASE("a number of blocks that makes no sense is refused", "[blocks][bad-input]") {
+    CHECK_THROWS_AS(mesh_cap(cube(1, 1), in_blocks(-1)), UsageError);
+    CHECK_THROWS_AS(mesh_cap(cube(1, 1), in_blocks(most_blocks + 1)), UsageError);
+}
