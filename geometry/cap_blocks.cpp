@@ -2,6 +2,7 @@
 #include "cap_blocks.h"
 
 #include "domain_blocks.h"
+#include "sliver_repair.h"
 #include "solid_mesher.h"
 
 #include "slabhull/core/error.h"
@@ -120,7 +121,7 @@ CapMesh<3> BlockJoiner::finish(std::size_t boundary_facets) {
 }
 
 CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, const CapOptions& options,
-                         std::size_t at_once, double expected_cells, std::size_t boundary_facets) {
+                         std::size_t at_once, double expected_cells, const Surface<3>& boundary) {
     BlockJoiner joiner{blocks, static_cast<std::size_t>(expected_cells)};
     for (std::size_t first = 0; first < blocks.facets.size(); first += at_once) {
         const std::size_t count = std::min(at_once, blocks.facets.size() - first);
@@ -137,7 +138,8 @@ CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, c
             parts[k] = {};
         }
     }
-    CapMesh<3> mesh = joiner.finish(boundary_facets);
+    CapMesh<3> mesh = joiner.finish(boundary.facets.size());
+    repair_slivers(mesh, boundary.points.size(), options.min_dihedral); // interfaces may move now
     mesh.blocks = static_cast<int>(blocks.facets.size());
     return mesh;
 }
@@ -174,8 +176,7 @@ CapMesh<3> mesh_in_blocks(const Surface<3>& surface, const SizeField<3>& size, c
     while (at_once > 1 && bytes_for(cells, count, at_once) > memory) {
         --at_once;
     }
-    return mesh_and_join(blocks, size, options, static_cast<std::size_t>(at_once), cells,
-                         surface.facets.size());
+    return mesh_and_join(blocks, size, options, static_cast<std::size_t>(at_once), cells, surface);
 }
 
 } // namespace slabhull

@@ -24,7 +24,7 @@ namespace {
 
 /// How far a block's load may be from its share, as part of that: planes nearer to it come first, those that
 /// graze the boundary last.
-constexpr std::array<double, 3> imbalances{0.03, 0.1, 0.3};
+constexpr std::array<double, 4> imbalances{0.01, 0.03, 0.1, 0.3};
 /// Planes looked at for each direction, and tried of them all.
 constexpr std::size_t offsets = 7;
 constexpr std::size_t tries = 8;

@@ -111,5 +111,4 @@ int components_of(const DataColumn& data) {
     return std::visit([](const auto& column) { return column.components(); }, data.values);
 }
 
-
 } // namespace slabhull::io

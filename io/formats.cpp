@@ -338,8 +338,8 @@ void require_offered(const Format& format, const WriteOptions& options, const st
     require_one("encoding", options.encoding, format.offers.encodings);
     require_one("version", options.version, format.offers.versions);
     if (options.pieces > 0 && !format.offers.pieces) {
-        throw UsageError{fmt::format("{}pieces: {} is not written in pieces; .pvtu and MSH are", prefix,
-                                     format.title)};
+        throw UsageError{
+            fmt::format("{}pieces: {} is not written in pieces; .pvtu and MSH are", prefix, format.title)};
     }
     if (options.four_dimensional && !format.offers.four_dimensional) {
         throw UsageError{fmt::format("{}four-dimensional: {} has no such dialect; Medit (.mesh) has one",

@@ -54,8 +54,8 @@ void write_msh_head(AtomicFile& file, const MeshColumns& mesh);
 /// Throws LimitError where data have more rows than MSH can count.
 void require_msh_rows(const MeshColumns& mesh);
 
-/// The arrays that MSH makes of one: use(title, first, last) for each with the components from `first` to before
-/// `last`. Gmsh knows reals of 3 or 9 components; all others go apart.
+/// The arrays that MSH makes of one: use(title, first, last) for each with the components from `first` to
+/// before `last`. Gmsh knows reals of 3 or 9 components; all others go apart.
 template<class Use>
 void for_each_msh_array(const DataColumn& data, const Use& use) {
     const int components = components_of(data);

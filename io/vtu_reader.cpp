@@ -239,8 +239,9 @@ private:
     template<class S, class Start, class Each>
     void parse_text(const pugi::xml_node& node, FileRange range, std::uint64_t count, const Start& start,
                     const Each& each) {
-        FileCursor cursor{file_, range.begin, range.end,
-                          fmt::format("{}: array \"{}\"", soup_.path, readable(node.attribute("Name").value()))};
+        FileCursor cursor{
+            file_, range.begin, range.end,
+            fmt::format("{}: array \"{}\"", soup_.path, readable(node.attribute("Name").value()))};
         const bool too_many = count > (range.end - range.begin + 1) / 2;
         const std::uint64_t wanted = too_many ? words_in(range) : count;
         const auto place = start(wanted);

@@ -91,13 +91,10 @@ StudyRow study(const Case& the_case, const std::optional<std::filesystem::path>&
     const Surface<D> boundary = boundary_of(initial);
     const auto settings = settings_of<D>(the_case, boundary);
     const std::vector<double> times = the_case.level_times(0);
-    Slab<D> slab = build_slab<D>(initial, 0, times, settings, ids, clock);
+    const Slab<D> slab = build_slab<D>(std::move(initial), 0, times, settings, ids, clock);
     row.layers = times.size() - 1;
     row.boundary_facets = boundary.facets.size();
-    row.centres = slab.hull.points.size() - initial.points.size() - slab.terminating.points.size() -
-                  boundary.points.size() * (row.layers - 1);
-    initial = {}; // the hull has all there is to check
-    slab.terminating = {};
+    row.centres = slab.hull.side_points - boundary.points.size() * (row.layers - 1);
 
     const HullReport report = check_hull<D>(columns_of(slab.hull));
     clock.book("checking");
