@@ -229,14 +229,15 @@ TEST_CASE("a domain too small to be cut is meshed whole", "[blocks]") {
 }
 
 TEST_CASE("memory decides how many blocks there are", "[blocks]") {
-    CHECK(blocks_that_fit(1e6, 1e9) == 1);
-    CHECK(blocks_that_fit(139e6, 24e9) > 1);
+    CHECK(blocks_that_fit(SolidMesher::tetgen, 1e6, 1e9) == 1);
+    CHECK(blocks_that_fit(SolidMesher::tetgen, 139e6, 24e9) > 1);
     int before = 1;
     for (const double bytes : {1e12, 40e9, 20e9, 16e9}) {
-        const int blocks = blocks_that_fit(100e6, bytes);
+        const int blocks = blocks_that_fit(SolidMesher::tetgen, 100e6, bytes);
         CHECK(blocks >= before);
         before = blocks;
     }
+    CHECK(blocks_that_fit(SolidMesher::hxt, 60e6, 20e9) > blocks_that_fit(SolidMesher::tetgen, 60e6, 20e9));
     CHECK(available_memory() > 1 << 20);
 }
 
