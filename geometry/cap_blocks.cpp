@@ -22,10 +22,11 @@ namespace slabhull {
 
 namespace {
 
-/// Cells for each cube of the wanted spacing, and bytes for each cell: in the mesher's process, and here
-/// while the blocks come in.
+/// Cells for each cube of the wanted spacing.
 constexpr double cells_per_cube = 7.2;
-constexpr double mesher_bytes = 220;
+/// Bytes for each cell: in the mesher's process, and here while the blocks come in.
+constexpr double tetgen_bytes = 220;
+constexpr double hxt_bytes = 280;
 constexpr double own_bytes = 100;
 /// Part of the memory that is free which the meshing may use.
 constexpr double usable_memory = 0.85;
@@ -36,7 +37,8 @@ CapMesh<3> fill(const Surface<3>& surface, const SizeField<3>& size, const CapOp
 }
 
 /// What meshing needs with so many blocks, so many of them at once.
-double bytes_for(double cells, int blocks, int at_once) {
+double bytes_for(SolidMesher mesher, double cells, int blocks, int at_once) {
+    const double mesher_bytes = mesher == SolidMesher::hxt ? hxt_bytes : tetgen_bytes;
     return cells * (own_bytes + mesher_bytes * std::min(1.0, static_cast<double>(at_once) / blocks));
 }
 
@@ -146,12 +148,12 @@ CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, c
 
 } // namespace
 
-int blocks_that_fit(double cells, double bytes) {
-    if (bytes_for(cells, 1, 1) <= bytes) {
+int blocks_that_fit(SolidMesher mesher, double cells, double bytes) {
+    if (bytes_for(mesher, cells, 1, 1) <= bytes) {
         return 1;
     }
     int blocks = 2;
-    while (blocks < most_blocks && bytes_for(cells, blocks, 2) > bytes) {
+    while (blocks < most_blocks && bytes_for(mesher, cells, blocks, 2) > bytes) {
         blocks *= 2;
     }
     return blocks;
@@ -162,18 +164,19 @@ CapMesh<3> mesh_in_blocks(const Surface<3>& surface, const SizeField<3>& size, c
         return fill(surface, size, options);
     }
     const double memory = usable_memory * static_cast<double>(available_memory());
-    if (options.blocks == 0 && bytes_for(cells_per_cube * size.cube_count(), 1, 1) <= memory) {
+    if (options.blocks == 0 &&
+        bytes_for(options.mesher, cells_per_cube * size.cube_count(), 1, 1) <= memory) {
         return fill(surface, size, options); // even if the domain were the box around it
     }
     std::vector<LoadSample> load = sample_load(surface, size);
     const double cells = cells_per_cube * cubes_in(load);
-    const int count = options.blocks > 0 ? options.blocks : blocks_that_fit(cells, memory);
+    const int count = options.blocks > 0 ? options.blocks : blocks_that_fit(options.mesher, cells, memory);
     if (count == 1) {
         return fill(surface, size, options);
     }
     const DomainBlocks blocks = cut_domain(surface, size, options.grading.growth, std::move(load), count);
     int at_once = std::min(thread_count(), count);
-    while (at_once > 1 && bytes_for(cells, count, at_once) > memory) {
+    while (at_once > 1 && bytes_for(options.mesher, cells, count, at_once) > memory) {
         --at_once;
     }
     return mesh_and_join(blocks, size, options, static_cast<std::size_t>(at_once), cells, surface);

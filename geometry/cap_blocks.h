@@ -15,6 +15,6 @@ inline constexpr int most_blocks = 4096;
 CapMesh<3> mesh_in_blocks(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options);
 
 /// How many blocks so many cells are meshed in when so much memory may be used: 1, or 2, 4, 8 ...
-int blocks_that_fit(double cells, double bytes);
+int blocks_that_fit(SolidMesher mesher, double cells, double bytes);
 
 } // namespace slabhull

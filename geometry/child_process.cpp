@@ -166,6 +166,7 @@ ChildEnd run_in_child(const std::function<void(const Send&)>& job,
         refuse("no process");
     }
     if (id == 0) {
+        start.unlock(); // the copy of it, for children of the child
         live_as_child(parent, out.number(), job);
     }
     Child child{id};

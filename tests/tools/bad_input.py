@@ -67,6 +67,8 @@ class CaseFiles(ProgramTest):
             ("[motion.body]\nkind = \"expansion\"\ncentre = [0, 0]\nrate = -1.5\n", "motion.body.rate"),
             ("[cap]\norder = \"hilbert\"\n", "cap.order"),
             ("[cap]\nreuse = \"keep\"\n", "cap.reuse"),
+            ("[cap]\nblocks = 2\n", "cap.blocks"),
+            ("[cap]\nmesher = \"hxt\"\n", "cap.mesher"),
             ("[cap]\nreuse_angle = -1\n", "cap.reuse_angle"),
             ("[cap]\nreuse_angle = 61\n", "cap.reuse_angle"),
             ("[output]\nformats = [\"xyz\"]\n", "output.formats"),
