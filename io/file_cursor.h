@@ -22,9 +22,6 @@ Array<char> read_bytes(const std::filesystem::path& path);
 /// ".msh" for "ROOM.MSH".
 std::string lower_extension(const std::filesystem::path& path);
 
-/// Text of a file as messages can show it: without control characters, and long ones without their middle.
-std::string readable(std::string_view text);
-
 /// A place in a file that holds text, binary values, or both by turns. Whatever is asked for
 /// beyond the end, or does not look as it should, ends in an InputError with file and line (text) or byte
 /// (binary).

@@ -4,6 +4,7 @@
 
 #include "byte_order.h"
 #include "file_cursor.h"
+#include "slabhull/core/text.h"
 #include "vtk_names.h"
 #include "vtu_payload.h"
 
