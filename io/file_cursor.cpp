@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "file_cursor.h"
 
+#include "slabhull/core/text.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -67,17 +69,6 @@ std::string lower_extension(const std::filesystem::path& path) {
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return extension;
-}
-
-std::string readable(std::string_view text) {
-    constexpr std::size_t shown = 300; // of either end
-    std::string result{text};
-    if (text.size() > 2 * shown) {
-        result = fmt::format("{} ... {}", text.substr(0, shown), text.substr(text.size() - shown));
-    }
-    std::replace_if(
-        result.begin(), result.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
-    return result;
 }
 
 std::string_view FileCursor::line() {

@@ -24,9 +24,6 @@ Array<char> read_bytes(const std::filesystem::path& path);
 /// ".msh" for "ROOM.MSH".
 std::string lower_extension(const std::filesystem::path& path);
 
-/// Text of a file as messages can show it: without control characters, and long ones without their middle.
-std::string readable(std::string_view text);
-
 /// A place in a file that holds text, binary values, or both by turns: in the bytes of a whole file or of
 /// some text, or in FileBytes, which it goes through once from front to back; then what it returns by
 /// reference lasts until it goes on, and rest() is not to be asked for. Whatever is asked for beyond the end,

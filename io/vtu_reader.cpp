@@ -5,6 +5,7 @@
 #include "byte_order.h"
 #include "file_cursor.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/text.h"
 #include "vtk_names.h"
 #include "vtu_payload.h"
 #include "vtu_pieces.h"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes a reader: scripts/fuzz.sh READER MINUTES
+# Fuzzes a reader: scripts/fuzz.sh READER MINUTES [options of libFuzzer]
 # Keeps in tests/fuzz/found/READER what of all that was found adds coverage: scripts/fuzz.sh --merge READER
 # Needs the build `cmake --preset fuzz && cmake --build --preset fuzz`. Files found go to build/fuzz/found/READER, crashes
 # to build/fuzz/crashes/READER: fix them, and move them to tests/fuzz/regressions/READER.
@@ -28,7 +28,7 @@ fuzz() {
     [[ -f $data/dictionaries/$reader.dict ]] && dictionary=(-dict="$data/dictionaries/$reader.dict")
     local status=0
     { time "$build/tests/fuzz/fuzz_$reader" "${limits[@]}" "${dictionary[@]}" -max_total_time="$seconds" \
-        -print_final_stats=1 -artifact_prefix="$crashes/" "$found" "${given[@]}"; } >"$log" 2>&1 || status=$?
+        -print_final_stats=1 "${@:3}" -artifact_prefix="$crashes/" "$found" "${given[@]}"; } >"$log" 2>&1 || status=$?
     echo "$reader: exit $status, $(grep -o 'cov: [0-9]* ft: [0-9]* corp: [0-9/KMb]*' "$log" | tail -1)," \
         "$(grep number_of_executed_units "$log" | grep -o '[0-9]*$') runs," $(grep '^user\|^sys' "$log") \
         "$(find "$crashes" -type f | wc -l) in $crashes"
@@ -53,5 +53,5 @@ merge() {
 if [[ ${1:-} == --merge ]]; then
     merge "$2"
 else
-    fuzz "$1" "$2"
+    fuzz "$@"
 fi

@@ -58,7 +58,11 @@ private:
             }
         }
         const int level = initial.has("level") ? initial.integer("level", 1, 99) : 1;
-        case_ = experiment_case(name, level);
+        try {
+            case_ = experiment_case(name, level);
+        } catch (const UsageError& error) {
+            initial.fail("experiment", error.what());
+        }
         if (root_.has("dimension")) {
             root_.integer("dimension", case_.dimension, case_.dimension);
         }

@@ -2,6 +2,7 @@
 #include "key_table.h"
 
 #include "slabhull/core/error.h"
+#include "slabhull/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,8 +65,8 @@ KeyTable KeyTable::parse_file(const std::filesystem::path& path) {
         const toml::table* table = root.get();
         return KeyTable{std::make_shared<Node>(Node{std::move(root), table, path.string(), ""})};
     } catch (const toml::parse_error& error) {
-        throw UsageError(
-            fmt::format("{}: line {}: {}", path.string(), error.source().begin.line, error.description()));
+        throw UsageError(fmt::format("{}: line {}: {}", path.string(), error.source().begin.line,
+                                     readable(error.description())));
     }
 }
 
@@ -84,8 +85,9 @@ std::vector<std::string> KeyTable::keys() const {
 void KeyTable::fail(const std::string& key, const std::string& expected) const {
     const toml::node* at = node_->table->get(key);
     const auto line = at != nullptr ? at->source().begin.line : node_->table->source().begin.line;
-    throw UsageError(fmt::format("{}: line {}: {}: {}expected {}", node_->file, line, node_->full_name(key),
-                                 at == nullptr ? "missing; " : "", expected));
+    throw UsageError(fmt::format("{}: line {}: {}: {}expected {}", node_->file, line,
+                                 readable(node_->full_name(key)), at == nullptr ? "missing; " : "",
+                                 readable(expected)));
 }
 
 void KeyTable::require_all_known() const {
@@ -95,13 +97,13 @@ void KeyTable::require_all_known() const {
             continue;
         }
         std::string message = fmt::format("{}: line {}: unknown key \"{}\"", node_->file,
-                                          key.source().begin.line, node_->full_name(name));
+                                          key.source().begin.line, readable(node_->full_name(name)));
         const auto nearest = std::min_element(node_->known.begin(), node_->known.end(),
                                               [&name](const std::string& a, const std::string& b) {
                                                   return edit_distance(a, name) < edit_distance(b, name);
                                               });
         if (nearest != node_->known.end()) {
-            message += fmt::format("; the nearest known key is \"{}\"", node_->full_name(*nearest));
+            message += fmt::format("; the nearest known key is \"{}\"", readable(node_->full_name(*nearest)));
         }
         throw UsageError(message);
     }

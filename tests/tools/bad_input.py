@@ -77,7 +77,7 @@ class CaseFiles(ProgramTest):
                 self.refused(self.case(CIRCLE + text), USAGE, word, "line")
 
     def test_an_experiment_or_level_that_there_is_not(self):
-        self.refused(self.case('[initial]\nexperiment = "square"\n'), USAGE, "tandem-ellipsoids")
+        self.refused(self.case('[initial]\nexperiment = "square"\n'), USAGE, "case.toml", "line 2", "tandem-ellipsoids")
         self.refused(self.case('[initial]\nexperiment = "circle"\nlevel = 99\n'), USAGE, "levels 1 to")
 
     def test_the_motion_of_a_patch_that_there_is_not(self):
