@@ -5,6 +5,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/io/files.h"
 #include "slabhull/topology/adjacency.h"
+#include "slabhull/topology/cell_stretches.h"
 #include "soup_cells.h"
 
 #include <algorithm>
@@ -66,43 +67,55 @@ Column<std::int64_t> ids(const IdRuns& values, std::size_t first = 0) {
             }};
 }
 
+/// The first cell of each point, found for a block of points after the other, as writers ask for them.
 template<int D>
-Array<Index> a_cell_of_each_point(const Hull<D>& hull) {
-    Array<Index> cell(hull.points.size());
-    for (std::size_t c = hull.cells.size(); c-- > 0;) {
-        for (const Index v : hull.cells[c]) {
-            cell[v] = static_cast<Index>(c);
+class CellsOfPoints {
+public:
+    explicit CellsOfPoints(const Hull<D>& hull)
+        : hull_{hull}, stretches_{hull.cells}, cell_(std::min(block, hull.points.size())) {}
+
+    void copy(std::size_t begin, std::size_t end, std::int64_t* out) {
+        const std::lock_guard guard{lock_};
+        for (std::size_t v = begin; v < end; ++v) {
+            if (v / block != block_) {
+                find(v / block);
+            }
+            *out++ = std::int64_t{cell_[v % block]};
         }
     }
-    return cell;
-}
 
-/// The first cell of each point: listed when a writer comes to it, and forgotten when it has asked for all.
-template<int D>
-Column<std::int64_t> cells_of_points(const Hull<D>& hull) {
-    struct List {
-        std::mutex lock;
-        Array<Index> cell;
-        std::size_t told = 0;
-    };
-    const auto list = std::make_shared<List>();
-    const std::size_t count = hull.points.size();
-    return {count, 1, [&hull, list, count](std::size_t begin, std::size_t end, std::int64_t* out) {
-                {
-                    const std::lock_guard guard{list->lock};
-                    if (list->cell.empty()) {
-                        list->cell = a_cell_of_each_point(hull);
+private:
+    static constexpr std::size_t block = std::size_t{1} << 20;
+
+    void find(std::size_t which) {
+        block_ = which;
+        const std::size_t begin = which * block;
+        const std::size_t end = std::min(hull_.points.size(), begin + block);
+        std::fill(cell_.begin(), cell_.end(), no_index);
+        for (const Index stretch : stretches_.naming(begin, end)) {
+            stretches_.each_cell(stretch, [&](std::size_t c) {
+                for (const Index v : hull_.cells[c]) {
+                    if (begin <= v && v < end) {
+                        Index& first = cell_[v - begin];
+                        first = std::min(first, static_cast<Index>(c));
                     }
                 }
-                std::copy(list->cell.begin() + static_cast<std::ptrdiff_t>(begin),
-                          list->cell.begin() + static_cast<std::ptrdiff_t>(end), out);
-                const std::lock_guard guard{list->lock};
-                list->told += end - begin;
-                if (list->told == count) {
-                    list->cell = {};
-                    list->told = 0;
-                }
-            }};
+            });
+        }
+    }
+
+    const Hull<D>& hull_;
+    CellStretches<D> stretches_;
+    std::mutex lock_;
+    Array<Index> cell_; ///< of the block's points
+    std::size_t block_ = static_cast<std::size_t>(-1);
+};
+
+template<int D>
+Column<std::int64_t> cells_of_points(const Hull<D>& hull) {
+    const auto cells = std::make_shared<CellsOfPoints<D>>(hull);
+    return {hull.points.size(), 1,
+            [cells](std::size_t begin, std::size_t end, std::int64_t* out) { cells->copy(begin, end, out); }};
 }
 
 DataArray number_field(std::string name, Array<std::int64_t> values) {

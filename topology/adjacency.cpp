@@ -2,8 +2,8 @@
 #include "slabhull/topology/adjacency.h"
 
 #include "cell_lists.h"
-#include "cell_stretches.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/topology/cell_stretches.h"
 #include "sorted_cell.h"
 
 #include <algorithm>

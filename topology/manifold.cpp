@@ -2,9 +2,9 @@
 #include "slabhull/topology/manifold.h"
 
 #include "cell_lists.h"
-#include "cell_stretches.h"
 #include "link.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/topology/cell_stretches.h"
 #include "sorted_cell.h"
 #include "star_counter.h"
 #include "union_find.h"
@@ -264,12 +264,15 @@ private:
     /// Returns how many vertices there are in the links of the sound ones among [first, last).
     std::size_t examine_stars(std::size_t first, std::size_t last, const Usage& usage,
                               PieceLists<Index>& unused, PieceLists<Index>& suspects) {
+        constexpr std::size_t ahead = 4;
         std::atomic<std::size_t> link_vertices{0};
         parallel_for(last - first, vertices_per_piece, [&](std::size_t begin, std::size_t end) {
             auto stars = counters_.take([&] { return StarCounter<D>{cells_, adjacency_.neighbors}; });
             std::size_t in_links = 0;
             for (std::size_t k = begin; k < end; ++k) {
                 const auto vertex = static_cast<Index>(first + k);
+                const Index soon = usage.one[std::min(k + ahead, end - 1)];
+                stars->prefetch(soon == no_index ? 0 : soon);
                 if (usage.cells[k] == 0) {
                     unused.at(first + begin).push_back(vertex);
                     continue;

@@ -73,6 +73,7 @@ private:
 };
 
 /// Counts the stars of vertices. StarWalker tells which cells are in one; this only counts, twice as fast.
+/// Needs: neighbours that share the facets they are said to share.
 template<int D>
 class StarCounter {
 public:
@@ -84,39 +85,78 @@ public:
         std::size_t vertices; ///< of those cells, without the vertex itself
     };
 
+    /// A cell that is reached through a facet has one vertex only that may be new, the one opposite to it.
     Count count(Index vertex, Index first) {
         met_cells_.clear();
         met_vertices_.clear();
         std::size_t reached = 0;
-        const auto reach = [&](Index cell) {
-            reached_[reached] = cell;
+        const auto reach = [&](Index cell, Index facet) {
+            prefetch(cell);
+            reached_[reached] = {cell, facet};
             reached += met_cells_.insert(cell);
         };
-        met_vertices_.insert(vertex);
-        reach(first);
+        for (const Index w : cells_[first]) {
+            met_vertices_.insert(w);
+        }
+        reach(first, parity(cells_[first]) ^ vertex);
         for (std::size_t k = 0; k < reached; ++k) {
-            if (reached + D + 1 > reached_.size()) {
-                reached_.resize(2 * reached_.size());
-            }
-            met_cells_.reserve(D + 1);
-            met_vertices_.reserve(D + 1);
-            const Index cell = reached_[k];
-            for (std::size_t i = 0; i <= D; ++i) {
-                const Index w = cells_[cell][i];
-                const Index across = neighbors_[cell][i];
-                met_vertices_.insert(w);
-                reach(w != vertex && across != no_index ? across : cell);
+            make_room(reached);
+            const auto [cell, facet] = reached_[k];
+            const Simplex<D>& corners = cells_[cell];
+            const Index all = parity(corners);
+            met_vertices_.insert(all ^ facet);
+            std::size_t place = place_of(vertex, corners);
+            for (std::size_t step = 0; step < D; ++step) {
+                place = place == D ? 0 : place + 1;
+                const Index across = neighbors_[cell][place];
+                reach(across != no_index ? across : cell, all ^ corners[place]);
             }
         }
         return {reached, met_vertices_.size() - 1};
     }
 
+    /// To be called some time before a cell is looked at.
+    void prefetch(Index cell) const {
+        __builtin_prefetch(&cells_[cell]);
+        __builtin_prefetch(&neighbors_[cell]);
+    }
+
 private:
+    struct Reached {
+        Index cell;
+        Index facet; ///< parity of the vertices of the facet through which it was reached
+    };
+
+    /// Exclusive or: that of a cell and that of one of its facets give the vertex that the facet leaves out.
+    static Index parity(const Simplex<D>& corners) {
+        Index result = 0;
+        for (const Index w : corners) {
+            result ^= w;
+        }
+        return result;
+    }
+
+    static std::size_t place_of(Index vertex, const Simplex<D>& corners) {
+        std::size_t place = 0;
+        for (std::size_t i = 1; i <= D; ++i) {
+            place = corners[i] == vertex ? i : place;
+        }
+        return place;
+    }
+
+    void make_room(std::size_t reached) {
+        if (reached + D + 1 > reached_.size()) {
+            reached_.resize(2 * reached_.size());
+        }
+        met_cells_.reserve(D);
+        met_vertices_.reserve(1);
+    }
+
     std::span<const Simplex<D>> cells_;
     std::span<const Neighbors<D>> neighbors_;
     MarkSet met_cells_;
     MarkSet met_vertices_;
-    std::vector<Index> reached_; ///< room for one beyond those reached
+    std::vector<Reached> reached_; ///< room for one beyond those reached
 };
 
 /// Lends things that are dear to make to the pieces of a parallel loop, so that each thread makes one at
