@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/core/array.h"
 
-#include <cstdlib>
+#include <cstdint>
+#include <new>
 #include <sys/mman.h>
 
 namespace slabhull::detail {
@@ -9,26 +10,40 @@ namespace slabhull::detail {
 namespace {
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 constexpr std::size_t worth_huge_pages = 2 * huge_page;
+
+/// Up to whole huge pages.
+constexpr std::size_t rounded(std::size_t bytes) {
+    return (bytes + huge_page - 1) / huge_page * huge_page;
+}
 } // namespace
 
 void* allocate_pages(std::size_t bytes) {
     if (bytes < worth_huge_pages) {
         return ::operator new(bytes);
     }
-    const std::size_t rounded = (bytes + huge_page - 1) / huge_page * huge_page;
-    void* memory = std::aligned_alloc(huge_page, rounded);
-    if (memory == nullptr) {
+    // straight from the system, so that it goes back there: malloc keeps blocks of up to 32 MiB for itself
+    const std::size_t wanted = rounded(bytes);
+    void* const mapped =
+        ::mmap(nullptr, wanted + huge_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (mapped == MAP_FAILED) {
         throw std::bad_alloc{};
     }
-    ::madvise(memory, rounded, MADV_HUGEPAGE); // advice: where it is refused, small pages serve
-    return memory;
+    char* const begin = static_cast<char*>(mapped);
+    const std::size_t before =
+        rounded(reinterpret_cast<std::uintptr_t>(begin)) - reinterpret_cast<std::uintptr_t>(begin);
+    if (before > 0) {
+        ::munmap(begin, before);
+    }
+    ::munmap(begin + before + wanted, huge_page - before);
+    ::madvise(begin + before, wanted, MADV_HUGEPAGE); // advice: where it is refused, small pages serve
+    return begin + before;
 }
 
 void release_pages(void* memory, std::size_t bytes) noexcept {
     if (bytes < worth_huge_pages) {
         ::operator delete(memory);
     } else {
-        std::free(memory);
+        ::munmap(memory, rounded(bytes));
     }
 }
 
