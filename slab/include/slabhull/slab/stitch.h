@@ -48,7 +48,7 @@ public:
     template<class T>
     void release(Array<T> SpatialMesh<D>::*array) {
         if (given_up_ != nullptr) {
-            given_up_->*array = {};
+            Array<T>{}.swap(given_up_->*array); // assigning {} would keep the memory
         }
     }
 
