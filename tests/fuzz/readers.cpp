@@ -121,9 +121,9 @@ Outcome read_format(std::string_view bytes) {
     return read_mesh(format, folder().put(file, bytes), bytes);
 }
 
-/// Files of one stem behind each other, each after a line such as "%% .node"; the first is read.
-Outcome read_tetgen(std::string_view bytes) {
-    constexpr std::array extensions{".node", ".ele", ".neigh", ".face", ".poly", ".smesh"};
+/// Files of one stem behind each other, each after a line such as "%% .node". The path of the first, empty where
+/// there is none.
+std::filesystem::path put_files(std::string_view bytes, std::span<const char* const> extensions) {
     constexpr std::string_view mark = "%% ";
     for (const char* extension : extensions) {
         folder().remove(std::string{"a"} + extension);
@@ -141,8 +141,35 @@ Outcome read_tetgen(std::string_view bytes) {
         }
         rest.remove_prefix(next);
     }
+    return first;
+}
+
+/// The first of the files is read.
+Outcome read_tetgen(std::string_view bytes) {
+    constexpr std::array extensions{".node", ".ele", ".neigh", ".face", ".poly", ".smesh"};
+    const std::filesystem::path first = put_files(bytes, extensions);
     return read_mesh(*io::format_named("tetgen"), first.empty() ? folder().put("a.node", bytes) : first,
                      bytes);
+}
+
+/// A .pvtu and its pieces.
+Outcome read_pieces(std::string_view bytes) {
+    constexpr std::array extensions{".pvtu", "_0.vtu", "_1.vtu"};
+    const std::filesystem::path first = put_files(bytes, extensions);
+    const auto whole = first.extension() == ".pvtu" ? first : folder().put("a.pvtu", bytes);
+    const auto soup = read_or_refuse<InputError>(io::read_pvtu, whole, bytes);
+    require(soup ? fault_of(*soup) : "", "pieces");
+    return soup ? Outcome::read : Outcome::refused;
+}
+
+/// With its values as text: HDF5's are tried in processes of their own (tests/io/xdmf.cpp damages them).
+Outcome read_xdmf(std::string_view bytes) {
+    if (bytes.find("HDF") != bytes.npos) {
+        return Outcome::refused;
+    }
+    const auto soup = read_or_refuse<InputError>(io::read_xdmf, folder().put("a.xdmf", bytes), bytes);
+    require(soup ? fault_of(*soup) : "", "xdmf");
+    return soup ? Outcome::read : Outcome::refused;
 }
 
 Outcome read_curve(std::string_view bytes) {
@@ -160,7 +187,9 @@ Outcome read_table(std::string_view bytes) {
 constexpr std::array all{
     Reader{"msh", read_format<"msh">},
     Reader{"vtu", read_format<"vtu">},
+    Reader{"pvtu", read_pieces},
     Reader{"vtk", read_format<"vtk">},
+    Reader{"xdmf", read_xdmf},
     Reader{"tetgen", read_tetgen},
     Reader{"medit", read_format<"medit">},
     Reader{"mfem", read_format<"mfem">},
