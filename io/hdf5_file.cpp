@@ -4,6 +4,7 @@
 #include "compression.h"
 #include "rehearsal.h"
 #include "slabhull/core/error.h"
+#include "slabhull/core/text.h"
 #include "slabhull/io/files.h"
 
 #include <algorithm>
@@ -227,7 +228,7 @@ struct Hdf5Dataset::Impl {
     bool chunked = false;
 
     [[noreturn]] void fail(const std::string& what) const {
-        throw InputError(fmt::format("{}: dataset {}: {}", file.name, name, what));
+        throw InputError(fmt::format("{}: dataset {}: {}", file.name, readable(name), what));
     }
     void require(bool condition, const char* what) const {
         if (!condition) {

@@ -4,6 +4,7 @@
 #include "mesh_pieces.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/index.h"
+#include "slabhull/core/text.h"
 #include "vtu_pieces.h"
 
 #include <algorithm>
@@ -212,8 +213,13 @@ Soup read_pvtu(const std::filesystem::path& path) {
     Pieces pieces{path.string()};
     std::set<std::string> seen;
     for (const std::string& source : pvtu_sources(path)) {
+        if (source.empty() || readable(source) != source) {
+            throw InputError(
+                fmt::format("{}: the name \"{}\" of a piece is no file's", path.string(), readable(source)));
+        }
         if (!seen.insert(source).second) {
-            throw InputError(fmt::format("{}: the piece \"{}\" is named twice", path.string(), source));
+            throw InputError(
+                fmt::format("{}: the piece \"{}\" is named twice", path.string(), readable(source)));
         }
         pieces.add(read_vtu_piece(path.parent_path() / source));
     }

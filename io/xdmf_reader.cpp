@@ -5,6 +5,7 @@
 #include "byte_order.h"
 #include "file_cursor.h"
 #include "hdf5_file.h"
+#include "slabhull/core/text.h"
 #include "vtk_names.h"
 #include "xdmf_names.h"
 
@@ -85,7 +86,8 @@ public:
 
 private:
     [[noreturn]] void fail_at(std::ptrdiff_t byte, const std::string& text) const {
-        throw InputError(fmt::format("{}: byte {}: {}", soup_.path, byte, text), {Entity{"byte", byte, {}}});
+        throw InputError(fmt::format("{}: byte {}: {}", soup_.path, byte, readable(text)),
+                         {Entity{"byte", byte, {}}});
     }
     [[noreturn]] void fail(const pugi::xml_node& node, const std::string& text) const {
         const pugi::xml_node named =

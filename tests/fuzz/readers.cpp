@@ -121,8 +121,8 @@ Outcome read_format(std::string_view bytes) {
     return read_mesh(format, folder().put(file, bytes), bytes);
 }
 
-/// Files of one stem behind each other, each after a line such as "%% .node". The path of the first, empty where
-/// there is none.
+/// Files of one stem behind each other, each after a line such as "%% .node". The path of the first, empty
+/// where there is none.
 std::filesystem::path put_files(std::string_view bytes, std::span<const char* const> extensions) {
     constexpr std::string_view mark = "%% ";
     for (const char* extension : extensions) {
