@@ -49,8 +49,9 @@ struct MshPart {
 /// The cells first, so that their tags are their numbers from 1; then those of lower dimensions.
 std::vector<MshPart> msh_parts(const MeshColumns& mesh);
 
-/// What comes before the nodes in a binary file: the format, the groups' names and the entities.
-void write_msh_head(AtomicFile& file, const MeshColumns& mesh);
+/// What comes before the nodes in a binary file: the format, the groups' names and the entities, in
+/// that box.
+void write_msh_head(AtomicFile& file, const MeshColumns& mesh, const Box& box);
 /// Throws LimitError where data have more rows than MSH can count.
 void require_msh_rows(const MeshColumns& mesh);
 

@@ -50,7 +50,7 @@ public:
     }
 
     void write() {
-        write_msh_head(file_, whole_.mesh);
+        write_msh_head(file_, whole_.mesh, whole_.box);
         write_entities();
         write_nodes();
         write_elements();

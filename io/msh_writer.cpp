@@ -76,7 +76,7 @@ public:
     }
 
     void write() {
-        write_head();
+        write_head(is_4 ? box_of(mesh_.points) : Box{}); // version 2.2 has no entities
         section("Nodes", [this] { is_4 ? write_node_block() : write_node_list(); });
         section("Elements", [this] { is_4 ? write_element_blocks() : write_element_list(); });
         for (const DataColumn& data : mesh_.point_data) {
@@ -87,11 +87,11 @@ public:
         }
     }
 
-    void write_head() {
+    void write_head(const Box& box) {
         write_format();
         write_physical_names();
         if constexpr (is_4) {
-            section("Entities", [this] { write_entities(); });
+            section("Entities", [&] { write_entities(box); });
         }
     }
 
@@ -162,13 +162,12 @@ private:
     // --- entities, of version 4.1 only
 
     /// The discrete entities, numbered from 1 in each dimension, in the box of the whole mesh.
-    void write_entities() {
+    void write_entities(const Box& box) {
         std::array<Tag, 4> counts{};
         for (const MshPart& part : parts_) {
             counts.at(static_cast<std::size_t>(part.dimension)) = part.entities.size();
         }
         row(counts[0], counts[1], counts[2], counts[3]);
-        const Box box = box_of(mesh_.points);
         for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) { // by ascending dimension
             write_entities(*part, box);
         }
@@ -340,8 +339,8 @@ private:
 
 } // namespace
 
-void write_msh_head(AtomicFile& file, const MeshColumns& mesh) {
-    MshWriter<BinaryRow, std::uint64_t>{file, mesh}.write_head();
+void write_msh_head(AtomicFile& file, const MeshColumns& mesh, const Box& box) {
+    MshWriter<BinaryRow, std::uint64_t>{file, mesh}.write_head(box);
 }
 
 void write_msh(AtomicFile& file, const MeshColumns& mesh, const MshOptions& options) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <variant>
 
 namespace soups {
 
@@ -75,6 +76,42 @@ inline void check_point_data(const io::Soup& soup) {
         CHECK(x[i] == soup.points[i][0]);
         CHECK(v[3 * i + 2] == 2 * soup.points[i][2]);
     }
+}
+
+template<class T>
+const T& values(const io::DataArray* array) {
+    REQUIRE(array != nullptr);
+    REQUIRE(std::holds_alternative<T>(array->values));
+    return std::get<T>(array->values);
+}
+
+inline std::size_t size_of(const io::DataArray& array) {
+    return std::visit([](const auto& values) { return values.size(); }, array.values);
+}
+
+/// What any soup must be.
+inline bool is_consistent(const io::Soup& soup) {
+    bool good = true;
+    for (std::size_t d = 0; d < 4; ++d) {
+        const auto& block = soup.simplices[d];
+        good = good && block.vertices.size() % (d + 1) == 0 &&
+               (block.tags.empty() || block.tags.size() == block.size(static_cast<int>(d))) &&
+               std::all_of(block.vertices.begin(), block.vertices.end(),
+                           [&](Index vertex) { return vertex < soup.points.size(); });
+    }
+    const auto has_rows = [](std::size_t rows) {
+        return [rows](const io::DataArray& array) {
+            return size_of(array) == rows * static_cast<std::size_t>(array.components);
+        };
+    };
+    const int top = soup.top_dimension();
+    const std::size_t cells = soup.simplices[static_cast<std::size_t>(top)].size(top);
+    return good &&
+           std::all_of(soup.point_data.begin(), soup.point_data.end(), has_rows(soup.points.size())) &&
+           std::all_of(soup.cell_data.begin(), soup.cell_data.end(), has_rows(cells)) &&
+           std::all_of(soup.points.begin(), soup.points.end(), [](const Point<3>& x) {
+               return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+           });
 }
 
 } // namespace soups

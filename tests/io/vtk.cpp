@@ -10,6 +10,8 @@
 
 using namespace slabhull;
 using scratch::fixture;
+using soups::is_consistent;
+using soups::values;
 
 namespace {
 
@@ -43,42 +45,6 @@ std::string written(const io::MeshColumns& mesh) {
     io::write_vtk(file, mesh);
     file.commit();
     return scratch::bytes_of(folder / "a.vtk");
-}
-
-template<class T>
-const T& values(const io::DataArray* array) {
-    REQUIRE(array != nullptr);
-    REQUIRE(std::holds_alternative<T>(array->values));
-    return std::get<T>(array->values);
-}
-
-std::size_t size_of(const io::DataArray& array) {
-    return std::visit([](const auto& values) { return values.size(); }, array.values);
-}
-
-/// What any soup must be.
-bool is_consistent(const io::Soup& soup) {
-    bool good = true;
-    for (std::size_t d = 0; d < 4; ++d) {
-        const auto& block = soup.simplices[d];
-        good = good && block.vertices.size() % (d + 1) == 0 &&
-               (block.tags.empty() || block.tags.size() == block.size(static_cast<int>(d))) &&
-               std::all_of(block.vertices.begin(), block.vertices.end(),
-                           [&](Index vertex) { return vertex < soup.points.size(); });
-    }
-    const auto has_rows = [](std::size_t rows) {
-        return [rows](const io::DataArray& array) {
-            return size_of(array) == rows * static_cast<std::size_t>(array.components);
-        };
-    };
-    const int top = soup.top_dimension();
-    const std::size_t cells = soup.simplices[static_cast<std::size_t>(top)].size(top);
-    return good &&
-           std::all_of(soup.point_data.begin(), soup.point_data.end(), has_rows(soup.points.size())) &&
-           std::all_of(soup.cell_data.begin(), soup.cell_data.end(), has_rows(cells)) &&
-           std::all_of(soup.points.begin(), soup.points.end(), [](const Point<3>& x) {
-               return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
-           });
 }
 
 const char* const fixtures[] = {"vtk_42_ascii.vtk",    "vtk_42_binary.vtk",   "vtk_51_ascii.vtk",
