@@ -27,7 +27,14 @@ void IdRuns::push_back(std::int64_t id) {
             return;
         }
     }
-    ++size_;
+    grow(1);
+}
+
+void IdRuns::grow(std::size_t count) {
+    size_ += count;
+    while (run_at_block_.size() * block < size_ && plain_.empty()) {
+        run_at_block_.push_back(runs_.size() - 1);
+    }
 }
 
 bool IdRuns::extends_last_run(std::int64_t id) {
@@ -46,6 +53,7 @@ void IdRuns::give_up_runs() {
     copy(0, size_, all.data());
     plain_ = std::move(all);
     runs_ = {};
+    run_at_block_ = {};
 }
 
 void IdRuns::append(std::span<const std::int64_t> ids) {
@@ -59,7 +67,7 @@ void IdRuns::append_run(std::int64_t first, std::size_t count, std::int64_t step
         const bool goes_on = plain_.empty() && !runs_.empty() && size_ - runs_.back().begin >= 2 &&
                              runs_.back().step == step && runs_.back().at(size_) == first;
         if (goes_on) {
-            size_ += count;
+            grow(count);
             return;
         }
         push_back(first);
@@ -67,7 +75,12 @@ void IdRuns::append_run(std::int64_t first, std::size_t count, std::int64_t step
 }
 
 const IdRuns::Run& IdRuns::run_of(std::size_t at) const {
-    const auto next = std::upper_bound(runs_.begin(), runs_.end(), at,
+    const std::size_t b = at / block;
+    const std::size_t last = b + 1 < run_at_block_.size() ? run_at_block_[b + 1] : runs_.size() - 1;
+    const auto after = [this](std::size_t run) {
+        return runs_.begin() + static_cast<std::ptrdiff_t>(run + 1);
+    };
+    const auto next = std::upper_bound(after(run_at_block_[b]), after(last), at,
                                        [](std::size_t place, const Run& run) { return place < run.begin; });
     return *std::prev(next);
 }

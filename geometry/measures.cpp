@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t cells_per_piece = 1 << 15;
 
+using detail::CosineRange;
 using detail::dot;
 using detail::minus;
 using detail::times;
@@ -33,48 +34,11 @@ Point<4> cross(const Point<4>& a, const Point<4>& b, const Point<4>& c) {
             -(xy * c[3] - xt * c[1] + yt * c[0]), xy * c[2] - xz * c[1] + yz * c[0]};
 }
 
-/// Sum with Neumaier's correction (Zeitschrift fuer angewandte Mathematik und Mechanik 54, 1974).
-class Sum {
-public:
-    void add(double x) {
-        const double next = sum_ + x;
-        lost_ += std::abs(sum_) >= std::abs(x) ? (sum_ - next) + x : (x - next) + sum_;
-        sum_ = next;
-    }
-    void add(const Sum& other) {
-        add(other.sum_);
-        lost_ += other.lost_;
-    }
-    double value() const { return sum_ + lost_; }
-
-private:
-    double sum_ = 0;
-    double lost_ = 0;
-};
-
 /// The angle of cos |cos|.
 double degrees(double s) {
     const double cosine = std::copysign(std::sqrt(std::min(1.0, std::abs(s))), s);
     return std::acos(cosine) * (180 / std::numbers::pi);
 }
-
-/// The extreme cosines of dihedral angles, kept as cos |cos|: it grows with the cosine and needs no square
-/// root.
-struct CosineRange {
-    double smallest = 1;
-    double largest = -1;
-
-    void add(double s) {
-        smallest = std::min(smallest, s);
-        largest = std::max(largest, s);
-    }
-    void add(const CosineRange& other) { // which may be empty: smallest 1, largest -1
-        smallest = std::min(smallest, other.smallest);
-        largest = std::max(largest, other.largest);
-    }
-    /// The smallest cosine belongs to the largest angle.
-    AngleRange angles() const { return {degrees(largest), degrees(smallest)}; }
-};
 
 /// Gram matrix of the gradients of the barycentric coordinates, but for a positive factor: the adjugate of
 /// the Gram matrix of the edges from corner 0, and the row that makes all rows sum to zero.
@@ -130,41 +94,6 @@ CosineRange cosines(const std::array<std::array<double, N>, D + 1>& corners) {
     CosineRange range;
     return for_each_cosine<D>(corners, [&range](double s) { range.add(s); }) ? range : CosineRange{-1, 1};
 }
-
-template<int D>
-class HullSums {
-public:
-    void add(const std::array<Point<D + 1>, D + 1>& corners, const Point<D + 1>& origin) {
-        const Point<D + 1> normal = simplex_normal<D>(corners);
-        measure_.add(std::sqrt(dot(normal, normal)));
-        enclosed_.add(dot(minus(corners[0], origin), normal)); // x.N is the same all over the simplex
-        for (std::size_t k = 0; k <= D; ++k) {
-            closure_[k].add(normal[k]);
-        }
-        cosines_.add(cosines<D>(corners));
-    }
-    void add(const HullSums& other) {
-        measure_.add(other.measure_);
-        enclosed_.add(other.enclosed_);
-        for (std::size_t k = 0; k <= D; ++k) {
-            closure_[k].add(other.closure_[k]);
-        }
-        cosines_.add(other.cosines_);
-    }
-    Measures<D> value() const {
-        Measures<D> result{measure_.value(), {}, enclosed_.value() / (D + 1), cosines_.angles()};
-        for (std::size_t k = 0; k <= D; ++k) {
-            result.closure[k] = closure_[k].value();
-        }
-        return result;
-    }
-
-private:
-    Sum measure_;
-    Sum enclosed_;
-    std::array<Sum, D + 1> closure_;
-    CosineRange cosines_;
-};
 
 /// Sums `add(c, sums)` over cells in fixed pieces, then the pieces in order.
 template<class Sums, class Add>
@@ -228,7 +157,7 @@ public:
     }
 
 private:
-    Sum sum_;
+    detail::CompensatedSum sum_;
     double largest_ = 0;
 };
 
@@ -247,12 +176,49 @@ public:
     SolidMeasures value() const { return {measure_.value(), smallest_, cosines_.angles()}; }
 
 private:
-    Sum measure_;
+    detail::CompensatedSum measure_;
     double smallest_ = std::numeric_limits<double>::infinity();
     CosineRange cosines_;
 };
 
 } // namespace
+
+AngleRange detail::CosineRange::angles() const {
+    return {degrees(largest), degrees(smallest)};
+}
+
+template<int D>
+Point<D + 1> MeasureSums<D>::add(const std::array<Point<D + 1>, D + 1>& corners, const Point<D + 1>& origin) {
+    const Point<D + 1> normal = simplex_normal<D>(corners);
+    measure_.add(std::sqrt(dot(normal, normal)));
+    enclosed_.add(dot(minus(corners[0], origin), normal)); // x.N is the same all over the simplex
+    for (std::size_t k = 0; k <= D; ++k) {
+        closure_[k].add(normal[k]);
+    }
+    cosines_.add(cosines<D>(corners));
+    ++cells_;
+    return normal;
+}
+
+template<int D>
+void MeasureSums<D>::add(const MeasureSums& other) {
+    measure_.add(other.measure_);
+    enclosed_.add(other.enclosed_);
+    for (std::size_t k = 0; k <= D; ++k) {
+        closure_[k].add(other.closure_[k]);
+    }
+    cosines_.add(other.cosines_);
+    cells_ += other.cells_;
+}
+
+template<int D>
+Measures<D> MeasureSums<D>::value() const {
+    Measures<D> result{measure_.value(), {}, enclosed_.value() / (D + 1), cosines_.angles(), cells_};
+    for (std::size_t k = 0; k <= D; ++k) {
+        result.closure[k] = closure_[k].value();
+    }
+    return result;
+}
 
 template<int D>
 Point<D + 1> simplex_normal(const std::array<Point<D + 1>, D + 1>& corners) {
@@ -290,26 +256,10 @@ AngleRange dihedral_angles(const std::array<Point<N>, D + 1>& corners) {
 }
 
 template<int D>
-std::vector<Measures<D>> measure_groups(std::span<const Point<D + 1>> points,
-                                        std::span<const Simplex<D>> cells,
-                                        std::span<const std::uint8_t> group, std::size_t group_count) {
-    const Point<D + 1> origin = points.empty() ? Point<D + 1>{} : points.front();
-    const auto sums = sum_by_pieces(cells.size(), std::vector<HullSums<D>>(group_count),
-                                    [&](std::size_t c, std::vector<HullSums<D>>& to) {
-                                        to[group[c]].add(corners_of<D, D + 1>(cells[c], points), origin);
-                                    });
-    std::vector<Measures<D>> result;
-    for (const HullSums<D>& sum : sums) {
-        result.push_back(sum.value());
-    }
-    return result;
-}
-
-template<int D>
 Measures<D> measure_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
     const Point<D + 1> origin = points.empty() ? Point<D + 1>{} : points.front();
-    return sum_by_pieces(cells.size(), std::array<HullSums<D>, 1>{},
-                         [&](std::size_t c, std::array<HullSums<D>, 1>& to) {
+    return sum_by_pieces(cells.size(), std::array<MeasureSums<D>, 1>{},
+                         [&](std::size_t c, std::array<MeasureSums<D>, 1>& to) {
                              to[0].add(corners_of<D, D + 1>(cells[c], points), origin);
                          })[0]
         .value();
@@ -388,10 +338,8 @@ template AngleHistogram angle_histogram<3, 3>(std::span<const Point<3>>, std::sp
 template AngleHistogram angle_histogram<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 template Measures<2> measure_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
 template Measures<3> measure_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
-template std::vector<Measures<2>> measure_groups<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
-                                                    std::span<const std::uint8_t>, std::size_t);
-template std::vector<Measures<3>> measure_groups<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
-                                                    std::span<const std::uint8_t>, std::size_t);
+template class MeasureSums<2>;
+template class MeasureSums<3>;
 template SolidMeasures measure_solid<2>(std::span<const Point<2>>, std::span<const Simplex<2>>);
 template SolidMeasures measure_solid<3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
 

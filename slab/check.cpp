@@ -47,9 +47,7 @@ public:
 
 private:
     void examine_connectivity() {
-        find_adjacency();
-        const ManifoldReport manifold = examine_manifold<D>(view_.cells(), view_.points().size(),
-                                                            view_.adjacency, {options_.most_findings});
+        const ManifoldReport manifold = manifold_report();
         translate(manifold, {}, findings_);
         report_.counts = manifold.counts;
         manifold_ = manifold.clean();
@@ -60,15 +58,17 @@ private:
     }
 
     /// A table of neighbours that lies in memory serves when it turns out to be right; else one is made.
-    void find_adjacency() {
+    ManifoldReport manifold_report() {
+        const std::size_t vertices = view_.points().size();
         const std::span<const Neighbors<D>> table = view_.hull.neighbor_table;
-        confirmed_ = confirms_adjacency<D>(view_.cells(), view_.points().size(), table);
-        if (confirmed_) {
+        if (auto report = confirm_manifold<D>(view_.cells(), vertices, table)) {
+            confirmed_ = true;
             view_.adjacency = AdjacencyView<D>{table};
-        } else {
-            adjacency_ = build_adjacency<D>(view_.cells(), view_.points().size());
-            view_.adjacency = adjacency_;
+            return *std::move(report);
         }
+        adjacency_ = build_adjacency<D>(view_.cells(), vertices);
+        view_.adjacency = adjacency_;
+        return examine_manifold<D>(view_.cells(), vertices, view_.adjacency, {options_.most_findings});
     }
 
     void examine_homology() {
@@ -99,26 +99,26 @@ private:
 
     void examine_shape() {
         check_coincident<D + 1>(view_.points(), findings_);
-        check_degenerate<D, D + 1>(view_.points(), view_.cells(), findings_);
         const bool caps = check_regions(view_, findings_);
         report_.time = view_.time;
         view_.region.resize(view_.cells().size(), 1); // without a duration there are no regions
-        measure();
+        const CellSurvey<D> survey = survey_cells(view_);
+        report_degenerate<D, D + 1>(view_.points(), view_.cells(), survey.degenerate, findings_);
+        add_measures(survey.regions);
         if (!caps || findings_.any({Defect::cap_not_flat, Defect::time_outside_slab})) {
             findings_.skip("caps, tracks, patches, layers", "the caps are not in place");
             return;
         }
-        check_cap_cells(view_, report_.enclosed < 0 ? -1.0 : 1.0, findings_);
+        const bool inside_out = report_.enclosed < 0;
+        report_inverted(view_, inside_out ? survey_cells(view_, -1).inverted : survey.inverted, findings_);
         examine_claims();
         examine_boundary();
     }
 
-    void measure() {
-        const auto regions = measure_groups<D>(view_.points(), view_.cells(), view_.region, 3);
+    void add_measures(const std::array<Measures<D>, 3>& regions) {
         Point<D + 1> closure{};
         for (std::size_t r = 0; r < 3; ++r) {
-            report_.cells_by_region[r] = static_cast<std::size_t>(
-                std::count(view_.region.begin(), view_.region.end(), static_cast<std::uint8_t>(r)));
+            report_.cells_by_region[r] = regions[r].cells;
             report_.measure_by_region[r] = regions[r].measure;
             report_.measure += regions[r].measure;
             report_.enclosed += regions[r].enclosed;

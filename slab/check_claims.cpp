@@ -52,17 +52,22 @@ Layers collect_layers(const HullView<D>& view) {
         std::vector<std::int64_t> claimed(end - begin);
         view.hull.layer.fill(begin, end, claimed.data());
         Layers found;
+        std::int64_t last = -1; // mostly the next cell's, too
+        LayerTimes* times = nullptr;
         for (std::size_t c = begin; c < end; ++c) {
             if (!view.in_cap(c) && is_side_layer(claimed[c - begin])) {
-                LayerTimes& layer = found[claimed[c - begin]];
+                if (claimed[c - begin] != last) {
+                    last = claimed[c - begin];
+                    times = &found[last];
+                }
                 const std::array<double, 2> span = view.span_of(c);
-                ++layer[0][span[0] + 0.0]; // 0.0 and -0.0 are one time
-                ++layer[1][span[1] + 0.0];
+                ++(*times)[0][span[0] + 0.0]; // 0.0 and -0.0 are one time
+                ++(*times)[1][span[1] + 0.0];
             }
         }
         const std::lock_guard guard{lock};
-        for (const auto& [layer, times] : found) {
-            add(layers[layer], times);
+        for (const auto& [layer, more] : found) {
+            add(layers[layer], more);
         }
     });
     return layers;

@@ -22,10 +22,11 @@ TrackSet<D> tracks_of(const HullView<D>& view, std::size_t cell, std::size_t& si
     size = 0;
     for (const Index v : view.cells()[cell]) {
         const auto end = tracks.begin() + size;
-        const auto place = std::lower_bound(tracks.begin(), end, view.track[v]);
-        if (view.track[v] >= 0 && (place == end || *place != view.track[v])) {
+        const TrackId track = view.track[v];
+        const auto place = std::lower_bound(tracks.begin(), end, track);
+        if (track >= 0 && (place == end || *place != track)) {
             std::copy_backward(place, end, end + 1);
-            *place = view.track[v];
+            *place = track;
             ++size;
         }
     }
@@ -98,8 +99,11 @@ Rulings<D> patches_of_facets(const HullView<D>& view) {
             Rulings<D>& piece = pieces[begin / cells_per_piece];
             each_vote(
                 view, first + begin, first + end,
-                [&](const Vote<D>& vote) {
-                    piece.push_back({vote.tracks, vote.patch});
+                [&](const Vote<D>& vote) { // a prism has several, one after the other
+                    if (const Ruling<D> ruling{vote.tracks, vote.patch};
+                        piece.empty() || piece.back() != ruling) {
+                        piece.push_back(ruling);
+                    }
                 },
                 [](const Vote<D>&) {});
             sort_out(piece);

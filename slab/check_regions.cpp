@@ -54,18 +54,18 @@ std::array<double, 2> slab_times(const HullView<D>& view, Findings& findings) {
     return claimed;
 }
 
+/// Returns the cells that are flat in time, and in no cap.
 template<int D>
-void find_regions(HullView<D>& view) {
+std::vector<Index> find_regions(HullView<D>& view) {
     view.region.resize(view.cells().size());
-    parallel_for(view.cells().size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            const auto [first, last] = view.span_of(c);
-            const Region region = first != last           ? Region::intermediate
-                                  : first == view.time[0] ? Region::initial
-                                  : first == view.time[1] ? Region::terminating
-                                                          : Region::intermediate;
-            view.region[c] = static_cast<std::uint8_t>(region);
-        }
+    return select(view.cells().size(), [&](std::size_t c) {
+        const auto [first, last] = view.span_of(c);
+        const Region region = first != last           ? Region::intermediate
+                              : first == view.time[0] ? Region::initial
+                              : first == view.time[1] ? Region::terminating
+                                                      : Region::intermediate;
+        view.region[c] = static_cast<std::uint8_t>(region);
+        return region == Region::intermediate && first == last;
     });
 }
 
@@ -93,11 +93,7 @@ void compare_regions(const HullView<D>& view, Findings& findings) {
 }
 
 template<int D>
-void check_side_spans(const HullView<D>& view, Findings& findings) {
-    const auto flat = select(view.cells().size(), [&](std::size_t c) {
-        const auto [first, last] = view.span_of(c);
-        return first == last && !view.in_cap(c);
-    });
+void report_flat(const HullView<D>& view, std::span<const Index> flat, Findings& findings) {
     for (const Index c : flat) {
         findings.cell(Defect::flat_side_cell, c,
                       fmt::format("a side cell with all its vertices at t = {}", view.span_of(c)[0]));
@@ -131,7 +127,7 @@ bool check_regions(HullView<D>& view, Findings& findings) {
         findings.other(Defect::no_duration, {}, fmt::format("all vertices are at t = {}", view.time[0]));
         return false;
     }
-    find_regions(view);
+    const std::vector<Index> flat = find_regions(view);
     for (const Region cap : {Region::initial, Region::terminating}) {
         const auto code = static_cast<std::uint8_t>(cap);
         if (std::find(view.region.begin(), view.region.end(), code) == view.region.end()) {
@@ -146,19 +142,13 @@ bool check_regions(HullView<D>& view, Findings& findings) {
     if (view.hull.region.given()) {
         compare_regions(view, findings);
     }
-    check_side_spans(view, findings);
+    report_flat(view, flat, findings);
     return true;
 }
 
 template<int D>
-void check_cap_cells(const HullView<D>& view, double sign, Findings& findings) {
-    const auto along_time = [&](std::size_t c) {
-        const double outward = view.region_of(c) == Region::initial ? -sign : sign;
-        return outward * simplex_normal<D>(corners_of<D, D + 1>(view.cells()[c], view.points()))[D];
-    };
-    const auto bad =
-        select(view.cells().size(), [&](std::size_t c) { return view.in_cap(c) && along_time(c) < 0; });
-    for (const Index c : bad) {
+void report_inverted(const HullView<D>& view, std::span<const Index> inverted, Findings& findings) {
+    for (const Index c : inverted) {
         findings.cell(Defect::inverted_cell, c,
                       fmt::format("its normal does not point out of the {}", region_names[view.region[c]]));
     }
@@ -183,8 +173,8 @@ void check_euler(const HullView<D>& view, const ManifoldCounts& counts, Findings
 
 template bool check_regions<2>(HullView<2>&, Findings&);
 template bool check_regions<3>(HullView<3>&, Findings&);
-template void check_cap_cells<2>(const HullView<2>&, double, Findings&);
-template void check_cap_cells<3>(const HullView<3>&, double, Findings&);
+template void report_inverted<2>(const HullView<2>&, std::span<const Index>, Findings&);
+template void report_inverted<3>(const HullView<3>&, std::span<const Index>, Findings&);
 template void check_euler<2>(const HullView<2>&, const ManifoldCounts&, Findings&);
 template void check_euler<3>(const HullView<3>&, const ManifoldCounts&, Findings&);
 

@@ -23,6 +23,13 @@ void check_coincident(std::span<const Point<N>> points, Findings& findings);
 /// Whether a cell has no measure to speak of: below 1e-14 of its longest edge to the power D.
 template<int D, int N>
 bool is_degenerate(const std::array<Point<N>, D + 1>& corners);
+/// The same for a cell whose measure is known.
+template<int D, int N>
+bool is_degenerate(const std::array<Point<N>, D + 1>& corners, double measure);
+
+template<int D, int N>
+void report_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,
+                       std::span<const Index> degenerate, Findings& findings);
 
 template<int D, int N>
 void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <limits>
 #include <tuple>
 
@@ -80,7 +81,25 @@ std::vector<Entity> track_entities(TrackId track, std::span<const Index> vertice
 }
 
 /// `track` is the points of one, by time.
-void check_track(std::span<const TrackPoint> track, const std::array<double, 2>& slab, Findings& findings) {
+bool is_whole(std::span<const TrackPoint> track, const std::array<double, 2>& slab) {
+    const auto same_time = [](const TrackPoint& a, const TrackPoint& b) { return a.time == b.time; };
+    return track.front().time == slab[0] && track.back().time == slab[1] &&
+           std::adjacent_find(track.begin(), track.end(), same_time) == track.end();
+}
+
+/// Calls visit(points) for each track.
+template<class Visit>
+void each_track(const std::vector<TrackPoint>& points, const Visit& visit) {
+    for (auto run = points.begin(); run != points.end();) {
+        const auto end =
+            std::find_if(run, points.end(), [&](const TrackPoint& p) { return p.track != run->track; });
+        visit(std::span<const TrackPoint>{run, end});
+        run = end;
+    }
+}
+
+/// `track` is the points of one, by time.
+void report_track(std::span<const TrackPoint> track, const std::array<double, 2>& slab, Findings& findings) {
     for (std::size_t k = 1; k < track.size(); ++k) {
         if (track[k].time == track[k - 1].time) {
             const std::array<Index, 2> both{track[k - 1].vertex, track[k].vertex};
@@ -132,43 +151,65 @@ void report(Defect what, const BoundaryFacet<D>& facet, const char* detail, Find
 
 template<int D>
 void check_cap_vertices(const HullView<D>& view, const std::vector<std::uint8_t>& use, Findings& findings) {
-    for (std::size_t v = 0; v < use.size(); ++v) {
+    each_id(view.track, [&](std::size_t v, TrackId track) {
         const auto vertex = static_cast<Index>(v);
-        if ((use[v] & on_its_boundary) != 0 && view.track[v] < 0) {
+        if ((use[v] & on_its_boundary) != 0 && track < 0) {
             findings.vertex(Defect::untracked_boundary, vertex,
                             "a cap meets the side there, but it has no track");
-        } else if (use[v] == in_a_cap && view.track[v] >= 0) {
-            findings.vertex(Defect::stray_track, vertex,
-                            fmt::format("inside a cap, but on track {}", view.track[v]));
+        } else if (use[v] == in_a_cap && track >= 0) {
+            findings.vertex(Defect::stray_track, vertex, fmt::format("inside a cap, but on track {}", track));
         }
-    }
+    });
+}
+
+template<int D>
+std::vector<std::uint8_t> mark_cap_vertices(const HullView<D>& view) {
+    std::vector<std::uint8_t> use(view.points().size(), 0);
+    parallel_for(view.cells().size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            for (std::size_t i = 0; view.in_cap(c) && i <= D; ++i) {
+                std::atomic_ref{use[view.cells()[c][i]]}.store(in_a_cap, std::memory_order_relaxed);
+            }
+        }
+    });
+    return use;
+}
+
+/// Cells of caps with neighbours on the side, ascending.
+template<int D>
+std::vector<Index> cap_cells_at_side(const HullView<D>& view) {
+    return select(view.cells().size(), [&](std::size_t c) {
+        const Neighbors<D>& across = view.adjacency.neighbors[c];
+        return view.in_cap(c) &&
+               std::any_of(across.begin(), across.end(), [&](Index n) { return !view.in_cap(n); });
+    });
 }
 
 } // namespace
 
 template<int D>
 void check_tracks(const HullView<D>& view, Findings& findings) {
-    for (const std::array<TrackId, 2>& part : parts_of_range(view.track)) {
-        const std::vector<TrackPoint> points = sorted_track_points(view, part);
-        for (auto run = points.begin(); run != points.end();) {
-            const auto end =
-                std::find_if(run, points.end(), [&](const TrackPoint& p) { return p.track != run->track; });
-            check_track({run, end}, view.time, findings);
-            run = end;
-        }
+    const std::vector<std::array<TrackId, 2>> parts = parts_of_range(view.track);
+    std::vector<std::vector<TrackPoint>> faulty(parts.size());
+    parallel_for(parts.size(), 1, [&](std::size_t part, std::size_t) {
+        each_track(sorted_track_points(view, parts[part]), [&](std::span<const TrackPoint> track) {
+            if (!is_whole(track, view.time)) {
+                faulty[part].insert(faulty[part].end(), track.begin(), track.end());
+            }
+        });
+    });
+    for (const std::vector<TrackPoint>& points : faulty) {
+        each_track(points,
+                   [&](std::span<const TrackPoint> track) { report_track(track, view.time, findings); });
     }
 }
 
 template<int D>
 BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findings) {
     BoundaryFacets<D> boundary;
-    std::vector<std::uint8_t> use(view.points().size(), 0);
-    for (Index c = 0; c < view.cells().size(); ++c) {
-        if (!view.in_cap(c)) {
-            continue;
-        }
+    std::vector<std::uint8_t> use = mark_cap_vertices(view);
+    for (const Index c : cap_cells_at_side(view)) {
         for (std::size_t i = 0; i <= D; ++i) {
-            use[view.cells()[c][i]] |= in_a_cap;
             if (view.in_cap(view.adjacency.neighbors[c][i])) {
                 continue;
             }

@@ -72,7 +72,8 @@ template<int D>
 class CellsOfPoints {
 public:
     explicit CellsOfPoints(const Hull<D>& hull)
-        : hull_{hull}, stretches_{hull.cells}, cell_(std::min(block, hull.points.size())) {}
+        : hull_{hull}, stretches_{hull.cells, hull.points.size()},
+          cell_(std::min(block, hull.points.size())) {}
 
     void copy(std::size_t begin, std::size_t end, std::int64_t* out) {
         const std::lock_guard guard{lock_};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "findings.h"
+#include "slabhull/geometry/measures.h"
 #include "slabhull/topology/adjacency.h"
 
 #include <array>
@@ -58,13 +59,28 @@ using BoundaryFacets = std::array<std::vector<BoundaryFacet<D>>, 2>;
 template<int D>
 bool check_regions(HullView<D>& view, Findings& findings);
 
-/// Cap cells that face the other way in time. `sign` is 1, or -1 for a hull that is inside out as a whole.
+/// Reports cap cells that face the other way in time.
 template<int D>
-void check_cap_cells(const HullView<D>& view, double sign, Findings& findings);
+void report_inverted(const HullView<D>& view, std::span<const Index> inverted, Findings& findings);
 
 /// Both caps must have one Euler characteristic, and a hull of dimension 2 twice that.
 template<int D>
 void check_euler(const HullView<D>& view, const ManifoldCounts& counts, Findings& findings);
+
+// --- check_cells.cpp
+// ------------------------------------------------------------------------------------------------
+
+/// What one look at the corners of each cell shows.
+template<int D>
+struct CellSurvey {
+    std::array<Measures<D>, 3> regions;
+    std::vector<Index> degenerate; ///< is_degenerate(), but for cells that repeat a vertex
+    std::vector<Index> inverted;   ///< cells of caps that do not face out of them
+};
+
+/// Needs: the regions. `sign` is 1, or -1 for a hull that is inside out as a whole.
+template<int D>
+CellSurvey<D> survey_cells(const HullView<D>& view, double sign = 1);
 
 // --- check_tracks.cpp
 // ------------------------------------------------------------------------------------------------

@@ -3,11 +3,9 @@
 
 #include "cell_lists.h"
 #include "slabhull/core/parallel.h"
-#include "slabhull/topology/cell_stretches.h"
 #include "sorted_cell.h"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <iterator>
 #include <limits>
@@ -47,80 +45,30 @@ HalfFacet half_facet(const SortedCell<D>& cell, std::size_t k, Index number) {
     return {others, number, 0, smallest, cell.place[k], cell.facet_odd(k), HalfFacet::alone};
 }
 
-/// Buckets of consecutive numbers.
-struct BucketRange {
-    std::size_t begin;
-    std::size_t end;
-    bool has(std::size_t bucket) const { return begin <= bucket && bucket < end; }
-};
-
 /// In sorted order, vertex 0 is the smallest of all facets but the one opposite to it, whose smallest is
-/// vertex 1: a cell is filed under these two, in those buckets that are wanted.
-template<int D, class File>
-void file_by_smallest_vertices(const Simplex<D>& cell, Index number, const BucketRange& wanted,
-                               const File& file) {
-    Index smallest = std::min(cell[0], cell[1]);
-    Index second = std::max(cell[0], cell[1]);
-    for (std::size_t i = 2; i <= D; ++i) {
-        second = std::min(second, std::max(smallest, cell[i]));
-        smallest = std::min(smallest, cell[i]);
-    }
-    const std::size_t first_bucket = smallest >> bucket_bits;
-    const std::size_t second_bucket = second >> bucket_bits;
-    if (wanted.has(first_bucket)) {
-        file(first_bucket - wanted.begin, number);
-    }
-    if (second_bucket != first_bucket && wanted.has(second_bucket)) {
-        file(second_bucket - wanted.begin, number);
-    }
+/// vertex 1: a cell is filed under these two.
+template<int D>
+CellLists buckets_by_smallest_vertex(std::span<const Simplex<D>> cells, std::size_t bucket_count) {
+    return list_cells(cells.size(), bucket_count, [&](std::size_t c, const auto& file) {
+        Index smallest = std::min(cells[c][0], cells[c][1]);
+        Index second = std::max(cells[c][0], cells[c][1]);
+        for (std::size_t i = 2; i <= D; ++i) {
+            second = std::min(second, std::max(smallest, cells[c][i]));
+            smallest = std::min(smallest, cells[c][i]);
+        }
+        file(smallest >> bucket_bits);
+        if (second >> bucket_bits != smallest >> bucket_bits) {
+            file(second >> bucket_bits);
+        }
+    });
 }
 
-/// Puts what a matcher finds into an adjacency.
+/// Matches the half-facets of one bucket after another; one matcher per thread and piece.
 template<int D>
-class AdjacencyWriter {
-public:
-    explicit AdjacencyWriter(Adjacency<D>& result) : neighbors_{result.neighbors} {}
-
-    void prefetch(Index cell) const { __builtin_prefetch(&neighbors_[cell], 1); }
-    void join(const HalfFacet& a, const HalfFacet& b) {
-        neighbors_[a.cell][a.place] = b.cell;
-        neighbors_[b.cell][b.place] = a.cell;
-    }
-    void leave(const HalfFacet& half) { neighbors_[half.cell][half.place] = no_index; }
-
-private:
-    std::span<Neighbors<D>> neighbors_;
-};
-
-/// Compares what a matcher finds with a claim.
-template<int D>
-class AdjacencyReader {
-public:
-    AdjacencyReader(std::span<const Neighbors<D>> claimed, std::atomic<bool>& confirmed)
-        : claimed_{claimed}, confirmed_{confirmed} {}
-
-    void prefetch(Index cell) const { __builtin_prefetch(&claimed_[cell]); }
-    void join(const HalfFacet& a, const HalfFacet& b) {
-        if (claimed_[a.cell][a.place] != b.cell || claimed_[b.cell][b.place] != a.cell) {
-            refuse();
-        }
-    }
-    void leave(const HalfFacet&) { refuse(); }
-    void refuse() { confirmed_.store(false, std::memory_order_relaxed); }
-
-private:
-    std::span<const Neighbors<D>> claimed_;
-    std::atomic<bool>& confirmed_;
-};
-
-/// Matches the half-facets of one bucket after another; one matcher per thread and piece. The lists begin
-/// with bucket `first`.
-template<int D, class Result>
 class BucketMatcher {
 public:
-    BucketMatcher(std::span<const Simplex<D>> cells, const CellLists& buckets, std::size_t first,
-                  const Result& result)
-        : cells_{cells}, buckets_{buckets}, first_{first}, result_{result} {}
+    BucketMatcher(std::span<const Simplex<D>> cells, const CellLists& buckets, Adjacency<D>& result)
+        : cells_{cells}, buckets_{buckets}, result_{result} {}
 
     void match(std::size_t bucket) {
         gather(bucket);
@@ -144,13 +92,13 @@ private:
         constexpr std::size_t ahead = 64;
         const std::span<const Index> all = buckets_.cells;
         const std::size_t last = all.size() - 1;
-        const std::size_t end = buckets_.begin[bucket - first_ + 1];
-        halves_.resize((D + 1) * (buckets_.of(bucket - first_).size() + 1));
+        const std::size_t end = buckets_.begin[bucket + 1];
+        halves_.resize((D + 1) * (buckets_.of(bucket).size() + 1));
         std::size_t count = 0;
-        for (std::size_t i = buckets_.begin[bucket - first_]; i < end; ++i) {
+        for (std::size_t i = buckets_.begin[bucket]; i < end; ++i) {
             const Index soon = all[std::min(i + ahead, last)];
             __builtin_prefetch(&cells_[soon]);
-            result_.prefetch(soon);
+            __builtin_prefetch(&result_.neighbors[soon], 1);
             const SortedCell<D> cell = sort_cell<D>(cells_[all[i]]);
             for (std::size_t k = 1; k <= D; ++k) {
                 halves_[count + k - 1] = half_facet(cell, k, all[i]);
@@ -179,7 +127,7 @@ private:
             if (first.state == HalfFacet::alone && first.odd != half.odd) {
                 first.state = HalfFacet::joined;
                 ++pairs;
-                result_.join(first, half);
+                join(first, half);
             } else {
                 first.state = HalfFacet::at_fault;
             }
@@ -220,14 +168,14 @@ private:
     void settle(Index smallest, std::span<const HalfFacet> run) {
         using Kind = typename FacetDefect<D>::Kind;
         if (run.size() == 2) {
-            result_.join(run[0], run[1]);
+            join(run[0], run[1]);
             if (run[0].odd == run[1].odd) {
                 report(Kind::disoriented, smallest, run);
             }
             return;
         }
         for (const HalfFacet& half : run) {
-            result_.leave(half);
+            result_.neighbors[half.cell][half.place] = no_index;
         }
         report(run.size() == 1 ? Kind::open : Kind::overfull, smallest, run);
     }
@@ -245,106 +193,49 @@ private:
         defects.push_back({kind, facet, std::move(in)});
     }
 
+    void join(const HalfFacet& a, const HalfFacet& b) {
+        result_.neighbors[a.cell][a.place] = b.cell;
+        result_.neighbors[b.cell][b.place] = a.cell;
+    }
+
     std::span<const Simplex<D>> cells_;
     const CellLists& buckets_;
-    std::size_t first_;
-    Result result_;
+    Adjacency<D>& result_;
     Array<HalfFacet> halves_; // resized without clearing
     std::vector<HalfFacet> faulty_;
     std::vector<std::uint16_t> table_;
 };
-
-std::size_t count_buckets(std::size_t vertex_count) {
-    return (vertex_count + bucket_size - 1) / bucket_size;
-}
-
-template<int D>
-CellLists list_all(std::span<const Simplex<D>> cells, const BucketRange& wanted) {
-    return list_cells(cells.size(), wanted.end - wanted.begin, [&](std::size_t c, const auto& file) {
-        file_by_smallest_vertices<D>(cells[c], static_cast<Index>(c), wanted, file);
-    });
-}
-
-/// Of some stretches of the cells.
-template<int D>
-CellLists list_some(std::span<const Simplex<D>> cells, const std::vector<Index>& stretches,
-                    const BucketRange& wanted) {
-    constexpr std::size_t length = CellStretches<D>::length;
-    return list_cells(stretches.size() * length, wanted.end - wanted.begin,
-                      [&](std::size_t item, const auto& file) {
-                          const std::size_t c = stretches[item / length] * length + item % length;
-                          if (c < cells.size()) {
-                              file_by_smallest_vertices<D>(cells[c], static_cast<Index>(c), wanted, file);
-                          }
-                      });
-}
-
-/// Calls match(bucket) for the buckets of a range, in parallel; `result` receives what is found.
-template<int D, class Result>
-std::vector<FacetDefect<D>> match_buckets(std::span<const Simplex<D>> cells, const CellLists& lists,
-                                          const BucketRange& range, const Result& result) {
-    const std::size_t count = range.end - range.begin;
-    std::vector<std::vector<FacetDefect<D>>> defects(count / buckets_per_piece + 1);
-    parallel_for(count, buckets_per_piece, [&](std::size_t begin, std::size_t end) {
-        BucketMatcher<D, Result> matcher{cells, lists, range.begin, result};
-        for (std::size_t k = begin; k < end; ++k) {
-            matcher.match(range.begin + k);
-        }
-        defects[begin / buckets_per_piece] = std::move(matcher.defects);
-    });
-    std::vector<FacetDefect<D>> all;
-    std::size_t defect_count = 0;
-    for (const std::vector<FacetDefect<D>>& found : defects) {
-        defect_count += found.size();
-    }
-    all.reserve(defect_count);
-    for (std::vector<FacetDefect<D>>& found : defects) {
-        std::move(found.begin(), found.end(), std::back_inserter(all));
-    }
-    return all;
-}
 
 } // namespace
 
 template<int D>
 Adjacency<D> build_adjacency(std::span<const Simplex<D>> cells, std::size_t vertex_count) {
     checked_index(cells.size(), "cells");
-    const BucketRange all{0, count_buckets(vertex_count)};
-    const CellLists lists = list_all<D>(cells, all);
+    const std::size_t bucket_count = (vertex_count + bucket_size - 1) / bucket_size;
+    const CellLists buckets = buckets_by_smallest_vertex<D>(cells, bucket_count);
     Adjacency<D> result;
     result.neighbors.resize(cells.size()); // each half-facet is in one bucket, which writes its entry
-    result.defects = match_buckets<D>(cells, lists, all, AdjacencyWriter<D>{result});
-    return result;
-}
-
-template<int D>
-bool confirms_adjacency(std::span<const Simplex<D>> cells, std::size_t vertex_count,
-                        std::span<const Neighbors<D>> claimed) {
-    checked_index(cells.size(), "cells");
-    if (claimed.size() != cells.size()) {
-        return false;
-    }
-    constexpr std::size_t passes = 24;
-    const std::size_t buckets = count_buckets(vertex_count);
-    const std::size_t at_once = vertices_at_once(vertex_count, passes) / bucket_size;
-    const CellStretches<D> stretches{cells};
-    std::atomic<bool> confirmed{true};
-    for (std::size_t begin = 0; begin < buckets && confirmed; begin += at_once) {
-        const BucketRange range{begin, std::min(buckets, begin + at_once)};
-        const auto some = stretches.naming(range.begin * bucket_size, range.end * bucket_size);
-        const CellLists lists = list_some<D>(cells, some, range);
-        const auto defects = match_buckets<D>(cells, lists, range, AdjacencyReader<D>{claimed, confirmed});
-        if (!defects.empty()) {
-            return false;
+    std::vector<std::vector<FacetDefect<D>>> defects(bucket_count / buckets_per_piece + 1);
+    parallel_for(bucket_count, buckets_per_piece, [&](std::size_t begin, std::size_t end) {
+        BucketMatcher<D> matcher{cells, buckets, result};
+        for (std::size_t bucket = begin; bucket < end; ++bucket) {
+            matcher.match(bucket);
         }
+        defects[begin / buckets_per_piece] = std::move(matcher.defects);
+    });
+    std::size_t defect_count = 0;
+    for (const std::vector<FacetDefect<D>>& found : defects) {
+        defect_count += found.size();
     }
-    return confirmed;
+    result.defects.reserve(defect_count);
+    for (std::vector<FacetDefect<D>>& found : defects) {
+        std::move(found.begin(), found.end(), std::back_inserter(result.defects));
+    }
+    return result;
 }
 
 template Adjacency<1> build_adjacency<1>(std::span<const Simplex<1>>, std::size_t);
 template Adjacency<2> build_adjacency<2>(std::span<const Simplex<2>>, std::size_t);
 template Adjacency<3> build_adjacency<3>(std::span<const Simplex<3>>, std::size_t);
-template bool confirms_adjacency<2>(std::span<const Simplex<2>>, std::size_t, std::span<const Neighbors<2>>);
-template bool confirms_adjacency<3>(std::span<const Simplex<3>>, std::size_t, std::span<const Neighbors<3>>);
 
 } // namespace slabhull

@@ -13,8 +13,7 @@
 
 namespace slabhull {
 
-/// Cells filed in rows (under vertices, say), compressed. In each row in the order of the items that they
-/// come from.
+/// Cells filed in rows (under vertices, say), compressed. Ascending in each row.
 struct CellLists {
     Array<std::uint64_t> begin; ///< row_count + 1 entries
     Array<Index> cells;
@@ -24,19 +23,19 @@ struct CellLists {
     }
 };
 
-/// Files cells in rows: for each of `item_count` items, `rows(item, file)` calls file(row, cell).
-/// Two passes of counting sort, so `rows` must say the same twice. Each thread takes one part of the items
+/// Files each cell in the rows that `rows(cell, file)` hands to file(row).
+/// Two passes of counting sort, so `rows` must say the same twice. Each thread takes one part of the cells
 /// and has its own counters, 8 bytes for each row.
 template<class Rows>
-CellLists list_cells(std::size_t item_count, std::size_t row_count, const Rows& rows) {
+CellLists list_cells(std::size_t cell_count, std::size_t row_count, const Rows& rows) {
     const auto parts = static_cast<std::size_t>(thread_count());
-    const std::size_t part_size = std::max<std::size_t>(1, (item_count + parts - 1) / parts);
+    const std::size_t part_size = std::max<std::size_t>(1, (cell_count + parts - 1) / parts);
     Array<std::uint64_t> next; // by part and row
     next.assign(parts * row_count, 0);
-    parallel_for(item_count, part_size, [&](std::size_t begin, std::size_t end) {
+    parallel_for(cell_count, part_size, [&](std::size_t begin, std::size_t end) {
         std::uint64_t* const count = next.data() + begin / part_size * row_count;
-        for (std::size_t item = begin; item < end; ++item) {
-            rows(item, [count](std::size_t row, Index) { ++count[row]; });
+        for (std::size_t c = begin; c < end; ++c) {
+            rows(c, [count](std::size_t row) { ++count[row]; });
         }
     });
     CellLists lists;
@@ -50,10 +49,11 @@ CellLists list_cells(std::size_t item_count, std::size_t row_count, const Rows& 
     }
     lists.begin[row_count] = sum;
     lists.cells.resize(sum);
-    parallel_for(item_count, part_size, [&](std::size_t begin, std::size_t end) {
+    parallel_for(cell_count, part_size, [&](std::size_t begin, std::size_t end) {
         std::uint64_t* const place = next.data() + begin / part_size * row_count;
-        for (std::size_t item = begin; item < end; ++item) {
-            rows(item, [&lists, place](std::size_t row, Index cell) { lists.cells[place[row]++] = cell; });
+        for (std::size_t c = begin; c < end; ++c) {
+            rows(c,
+                 [&lists, place, c](std::size_t row) { lists.cells[place[row]++] = static_cast<Index>(c); });
         }
     });
     return lists;

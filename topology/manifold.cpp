@@ -2,6 +2,7 @@
 #include "slabhull/topology/manifold.h"
 
 #include "cell_lists.h"
+#include "facet_pairing.h"
 #include "link.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/topology/cell_stretches.h"
@@ -19,7 +20,7 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::size_t vertices_per_piece = 1 << 13;
+constexpr std::size_t vertices_per_piece = 1 << 11;
 constexpr std::size_t cells_per_piece = 1 << 16;
 
 /// What each piece of a parallel loop found, put together in the order of the pieces.
@@ -94,6 +95,9 @@ public:
                          [](const ManifoldFinding& a, const ManifoldFinding& b) { return a.what < b.what; });
         return std::move(report_);
     }
+
+    /// After run(): whether there was no vertex to be looked at closely.
+    bool sound() const { return sound_; }
 
 private:
     // --- cells
@@ -219,80 +223,114 @@ private:
 
     /// Of consecutive vertices.
     struct Usage {
-        Array<Index> cells; ///< how many use each vertex
-        Array<Index> one;   ///< one of them
+        Array<Index> one;   ///< of the cells that use each vertex
+        Array<Index> cells; ///< how many do, where that is counted
     };
 
-    Usage count_usage(const CellStretches<D>& stretches, std::size_t begin, std::size_t end) const {
+    Usage find_usage(const CellStretches<D>& stretches, std::size_t begin, std::size_t end,
+                     bool counted) const {
         Usage usage;
-        usage.cells.assign(end - begin, 0);
         usage.one.assign(end - begin, no_index);
+        usage.cells.assign(counted ? end - begin : 0, 0);
         const std::vector<Index> some = stretches.naming(begin, end);
+        const auto file = [&](std::size_t c) {
+            for (const Index v : cells_[c]) {
+                if (begin <= v && v < end) {
+                    std::atomic_ref{usage.one[v - begin]}.store(static_cast<Index>(c),
+                                                                std::memory_order_relaxed);
+                }
+            }
+        };
         const auto count = [&](std::size_t c) {
             each_vertex(cells_[c], [&](Index v) {
                 if (begin <= v && v < end) {
                     std::atomic_ref{usage.cells[v - begin]}.fetch_add(1, std::memory_order_relaxed);
-                    std::atomic_ref{usage.one[v - begin]}.store(static_cast<Index>(c),
-                                                                std::memory_order_relaxed);
                 }
             });
         };
-        parallel_for(some.size(), 1,
-                     [&](std::size_t k, std::size_t) { stretches.each_cell(some[k], count); });
+        parallel_for(some.size(), 16, [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k) {
+                stretches.each_cell(some[k], file);
+                if (counted) {
+                    stretches.each_cell(some[k], count);
+                }
+            }
+        });
         return usage;
     }
 
+    /// What was found of the stars of all vertices.
+    struct Survey {
+        PieceLists<Index> unused;
+        PieceLists<Index> suspects;
+        std::size_t cells = 0;         ///< over all stars
+        std::size_t link_vertices = 0; ///< over those of sound vertices
+
+        explicit Survey(std::size_t vertex_count)
+            : unused(vertex_count, vertices_per_piece), suspects(vertex_count, vertices_per_piece) {}
+    };
+
+    /// Stars that are walked whole have as many cells as there are corners of cells, together: only when they
+    /// have not, it is counted how many each should have.
     void examine_vertices() {
-        constexpr std::size_t passes = 8;
-        const CellStretches<D> stretches{cells_};
-        const std::size_t at_once = vertices_at_once(vertex_count_, passes);
-        PieceLists<Index> unused(vertex_count_, vertices_per_piece);
-        PieceLists<Index> suspects(vertex_count_, vertices_per_piece);
-        std::size_t link_vertices = 0;
-        for (std::size_t begin = 0; begin < vertex_count_; begin += at_once) {
-            const std::size_t end = std::min(vertex_count_, begin + at_once);
-            const Usage usage = count_usage(stretches, begin, end);
-            link_vertices += examine_stars(begin, end, usage, unused, suspects);
+        Survey survey = survey_stars(false);
+        if (survey.cells != cells_.size() * (D + 1)) {
+            survey = survey_stars(true);
         }
-        report_unused(unused.joined());
-        const std::vector<Index> to_examine = suspects.joined();
+        report_unused(survey.unused.joined());
+        const std::vector<Index> to_examine = survey.suspects.joined();
         sound_ = to_examine.empty();
-        link_vertices += examine_suspects(to_examine);
+        const std::size_t link_vertices = survey.link_vertices + examine_suspects(to_examine);
         report_.counts.edges = D == 2 ? report_.counts.facets : link_vertices / 2;
     }
 
-    /// Returns how many vertices there are in the links of the sound ones among [first, last).
-    std::size_t examine_stars(std::size_t first, std::size_t last, const Usage& usage,
-                              PieceLists<Index>& unused, PieceLists<Index>& suspects) {
+    Survey survey_stars(bool counted) {
+        constexpr std::size_t passes = 4;
+        const CellStretches<D> stretches{cells_, vertex_count_};
+        const std::size_t at_once = vertices_at_once(vertex_count_, passes);
+        Survey survey{vertex_count_};
+        for (std::size_t begin = 0; begin < vertex_count_; begin += at_once) {
+            const std::size_t end = std::min(vertex_count_, begin + at_once);
+            survey_stars(begin, end, find_usage(stretches, begin, end, counted), survey);
+        }
+        return survey;
+    }
+
+    void survey_stars(std::size_t first, std::size_t last, const Usage& usage, Survey& survey) {
         constexpr std::size_t ahead = 4;
+        std::atomic<std::size_t> cells{0};
         std::atomic<std::size_t> link_vertices{0};
         parallel_for(last - first, vertices_per_piece, [&](std::size_t begin, std::size_t end) {
             auto stars = counters_.take([&] { return StarCounter<D>{cells_, adjacency_.neighbors}; });
+            std::size_t in_stars = 0;
             std::size_t in_links = 0;
             for (std::size_t k = begin; k < end; ++k) {
                 const auto vertex = static_cast<Index>(first + k);
                 const Index soon = usage.one[std::min(k + ahead, end - 1)];
                 stars->prefetch(soon == no_index ? 0 : soon);
-                if (usage.cells[k] == 0) {
-                    unused.at(first + begin).push_back(vertex);
+                if (usage.one[k] == no_index) {
+                    survey.unused.at(first + begin).push_back(vertex);
                     continue;
                 }
                 const auto star = stars->count(vertex, usage.one[k]);
-                if (is_sound(star, usage.cells[k])) {
+                in_stars += star.cells;
+                if (is_sound(star, usage.cells.empty() ? star.cells : usage.cells[k])) {
                     in_links += star.vertices;
                 } else {
-                    suspects.at(first + begin).push_back(vertex);
+                    survey.suspects.at(first + begin).push_back(vertex);
                 }
             }
+            cells += in_stars;
             link_vertices += in_links;
             counters_.give_back(std::move(stars));
         });
-        return link_vertices;
+        survey.cells += cells;
+        survey.link_vertices += link_vertices;
     }
 
     /// May doubt a sound vertex of an open manifold, never trusts a bad one.
     static bool is_sound(const typename StarCounter<D>::Count& star, std::size_t uses) {
-        return star.cells == uses && (D == 2 || 2 * star.vertices == star.cells + 4);
+        return star.cells == uses && !star.facet_twice && (D == 2 || 2 * star.vertices == star.cells + 4);
     }
 
     void report_unused(const std::vector<Index>& unused) {
@@ -315,7 +353,7 @@ private:
             list_cells(cells_.size(), suspects.size(), [&](std::size_t c, const auto& file) {
                 each_vertex(cells_[c], [&](Index v) {
                     if (place[v] != no_index) {
-                        file(place[v], static_cast<Index>(c));
+                        file(place[v]);
                     }
                 });
             });
@@ -384,11 +422,13 @@ private:
             return count_components<D>(adjacency_.neighbors);
         }
         UnionFind joined{vertex_count_};
-        for (const Simplex<D>& cell : cells_) {
-            for (std::size_t i = 1; i <= D; ++i) {
-                joined.join(cell[0], cell[i]);
+        parallel_for(cells_.size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c) {
+                for (std::size_t i = 1; i <= D; ++i) {
+                    joined.join(cells_[c][0], cells_[c][i]);
+                }
             }
-        }
+        });
         return joined.count_sets() - (vertex_count_ - report_.counts.vertices);
     }
 
@@ -419,6 +459,17 @@ ManifoldReport examine_manifold(std::span<const Simplex<D>> cells, std::size_t v
 }
 
 template<int D>
+std::optional<ManifoldReport> confirm_manifold(std::span<const Simplex<D>> cells, std::size_t vertex_count,
+                                               std::span<const Neighbors<D>> claimed) {
+    if (!pairs_facets<D>(cells, claimed)) {
+        return std::nullopt;
+    }
+    Examination<D> examination{cells, vertex_count, AdjacencyView<D>{claimed}, {}};
+    ManifoldReport report = examination.run();
+    return report.clean() && examination.sound() ? std::optional{std::move(report)} : std::nullopt;
+}
+
+template<int D>
 std::size_t count_components(std::span<const Neighbors<D>> neighbors) {
     UnionFind components{neighbors.size()};
     for (std::size_t c = 0; c < neighbors.size(); ++c) {
@@ -435,6 +486,10 @@ template ManifoldReport examine_manifold<2>(std::span<const Simplex<2>>, std::si
                                             const ManifoldOptions&);
 template ManifoldReport examine_manifold<3>(std::span<const Simplex<3>>, std::size_t, const AdjacencyView<3>&,
                                             const ManifoldOptions&);
+template std::optional<ManifoldReport> confirm_manifold<2>(std::span<const Simplex<2>>, std::size_t,
+                                                           std::span<const Neighbors<2>>);
+template std::optional<ManifoldReport> confirm_manifold<3>(std::span<const Simplex<3>>, std::size_t,
+                                                           std::span<const Neighbors<3>>);
 template std::size_t count_components<1>(std::span<const Neighbors<1>>);
 template std::size_t count_components<2>(std::span<const Neighbors<2>>);
 template std::size_t count_components<3>(std::span<const Neighbors<3>>);

@@ -5,36 +5,44 @@
 #include "slabhull/core/index.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <numeric>
 
 namespace slabhull {
 
-/// Disjoint sets of 0 .. count - 1. A set is represented by its smallest element, whatever the order of
-/// joining.
+/// Disjoint sets of 0 .. count - 1, which many threads may join at once (Anderson and Woll, STOC 1991). A set
+/// is represented by its smallest element, whatever the order of joining.
 class UnionFind {
 public:
     explicit UnionFind(std::size_t count) : parent_(count) {
         std::iota(parent_.begin(), parent_.end(), Index{0});
     }
 
+    /// Halves the path: what is no root stays none, so that a store that comes late does no harm.
     Index find(Index x) {
-        while (parent_[x] != x) {
-            parent_[x] = parent_[parent_[x]];
-            x = parent_[x];
+        for (Index parent = load(x); parent != x;) {
+            const Index next = load(parent);
+            at(x).store(next, std::memory_order_relaxed);
+            x = next;
+            parent = load(x);
         }
         return x;
     }
 
     /// False when they were in one set already.
     bool join(Index a, Index b) {
-        a = find(a);
-        b = find(b);
-        if (a == b) {
-            return false;
+        for (;;) {
+            a = find(a);
+            b = find(b);
+            if (a == b) {
+                return false;
+            }
+            Index root = std::max(a, b);
+            if (at(root).compare_exchange_strong(root, std::min(a, b), std::memory_order_relaxed)) {
+                return true;
+            }
         }
-        parent_[std::max(a, b)] = std::min(a, b);
-        return true;
     }
 
     bool is_root(Index x) const { return parent_[x] == x; }
@@ -48,6 +56,9 @@ public:
     }
 
 private:
+    std::atomic_ref<Index> at(Index x) { return std::atomic_ref{parent_[x]}; }
+    Index load(Index x) { return at(x).load(std::memory_order_relaxed); }
+
     Array<Index> parent_;
 };
 

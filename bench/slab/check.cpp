@@ -19,9 +19,9 @@ using namespace slabhull;
 
 namespace {
 
-/// The experiment's hull with about so many tetrahedra; refinement 1.137 gives 367,000.
+/// The experiment's hull with about so many tetrahedra; refinement 1.187 gives 367,000.
 Hull<3> hull_of(double tets) {
-    const Case the_case = experiment_at("ellipsoid", 1.137 * std::cbrt(tets / 367'000), Bulk::caps);
+    const Case the_case = experiment_at("ellipsoid", 1.187 * std::cbrt(tets / 367'000), Bulk::caps);
     IdCounter ids;
     StageClock clock;
     const SpatialMesh<3> cap = initial_cap<3>(the_case, ids, {}, clock);

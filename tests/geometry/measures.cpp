@@ -25,6 +25,19 @@ double distance(const std::array<double, N>& a, const std::array<double, N>& b) 
     return std::sqrt(sum);
 }
 
+std::vector<Measures<3>> measure_groups(std::span<const Point<4>> points, std::span<const Simplex<3>> cells,
+                                        std::span<const std::uint8_t> group, std::size_t group_count) {
+    std::vector<MeasureSums<3>> sums(group_count);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        sums[group[c]].add(corners_of<3, 4>(cells[c], points), points.front());
+    }
+    std::vector<Measures<3>> groups;
+    for (const MeasureSums<3>& sum : sums) {
+        groups.push_back(sum.value());
+    }
+    return groups;
+}
+
 /// Determinant by elimination with pivoting: another way than the cofactors under test.
 template<std::size_t N>
 double determinant(std::array<std::array<double, N>, N> rows) {
@@ -245,7 +258,7 @@ TEST_CASE("sums are the same bits for any number of threads, and add up over gro
     const Measures<3> alone = measure_cells<3>(points, complex.cells);
     set_thread_count(3);
     const Measures<3> together = measure_cells<3>(points, complex.cells);
-    const auto groups = measure_groups<3>(points, complex.cells, group, 3);
+    const auto groups = measure_groups(points, complex.cells, group, 3);
     set_thread_count(0);
     CHECK(std::memcmp(&alone, &together, sizeof(alone)) == 0);
     CHECK(groups[0].measure + groups[1].measure + groups[2].measure == Approx(alone.measure).epsilon(1e-14));
@@ -253,6 +266,27 @@ TEST_CASE("sums are the same bits for any number of threads, and add up over gro
           Approx(alone.enclosed).epsilon(1e-12));
     CHECK(std::min({groups[0].angles.smallest, groups[1].angles.smallest, groups[2].angles.smallest}) ==
           alone.angles.smallest);
+    CHECK(groups[0].cells + groups[1].cells + groups[2].cells == complex.cells.size());
+}
+
+TEST_CASE("sums that are put together are those of all simplices, and a normal is that of its simplex") {
+    const Array<Point<4>> points{{0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 3}};
+    const std::array<Simplex<3>, 2> cells{{{0, 1, 2, 3}, {4, 1, 2, 3}}};
+    std::array<MeasureSums<3>, 2> sums;
+    for (std::size_t c = 0; c < 2; ++c) {
+        const auto corners = corners_of<3, 4>(cells[c], points);
+        CHECK(sums[c].add(corners, points[0]) == simplex_normal<3>(corners));
+    }
+    const Measures<3> first = sums[0].value();
+    sums[0].add(sums[1]);
+    const Measures<3> both = sums[0].value();
+    const Measures<3> expected = measure_cells<3>(points, cells);
+    CHECK(first.cells == 1);
+    CHECK(both.cells == 2);
+    CHECK(both.measure == expected.measure);
+    CHECK(both.closure == expected.closure);
+    CHECK(both.enclosed == expected.enclosed);
+    CHECK(both.angles.smallest == expected.angles.smallest);
 }
 
 TEST_CASE("a group without cells in some of the pieces has the angles of its own cells only") {
@@ -266,7 +300,7 @@ TEST_CASE("a group without cells in some of the pieces has the angles of its own
     }
     std::vector<std::uint8_t> group(complex.cells.size(), 0);
     group.front() = 1;
-    const auto groups = measure_groups<3>(points, complex.cells, group, 2);
+    const auto groups = measure_groups(points, complex.cells, group, 2);
     const AngleRange own = dihedral_angles<3, 4>(corners_of<3, 4>(complex.cells.front(), points));
     CHECK(groups[1].angles.smallest == own.smallest);
     CHECK(groups[1].angles.largest == own.largest);

@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <random>
+
 using namespace slabhull;
 using specimens::Complex;
 
@@ -14,7 +16,34 @@ namespace {
 template<int D>
 ManifoldReport examine(const Complex<D>& complex, const ManifoldOptions& options = {}) {
     const auto adjacency = build_adjacency<D>(complex.cells, complex.vertices);
-    return examine_manifold<D>(complex.cells, complex.vertices, adjacency, options);
+    const ManifoldReport report = examine_manifold<D>(complex.cells, complex.vertices, adjacency, options);
+    const auto confirmed = confirm_manifold<D>(complex.cells, complex.vertices, adjacency.neighbors);
+    REQUIRE(confirmed.has_value() == report.clean());
+    if (confirmed) {
+        REQUIRE(confirmed->counts.vertices == report.counts.vertices);
+        REQUIRE(confirmed->counts.edges == report.counts.edges);
+        REQUIRE(confirmed->counts.facets == report.counts.facets);
+        REQUIRE(confirmed->counts.components == report.counts.components);
+        REQUIRE(confirmed->counts.euler == report.counts.euler);
+    }
+    return report;
+}
+
+template<int D>
+bool confirms(const Complex<D>& complex, const Array<Neighbors<D>>& claimed) {
+    return confirm_manifold<D>(complex.cells, complex.vertices, claimed).has_value();
+}
+
+/// Exchanges what is across facet i of cell c with what is across facet j of cell d.
+template<int D>
+void cross(Array<Neighbors<D>>& neighbors, std::array<Index, 2> first, std::array<Index, 2> second,
+           const std::array<std::size_t, 4>& places) {
+    const auto [a, b] = first;
+    const auto [c, d] = second;
+    neighbors[a][places[0]] = d;
+    neighbors[d][places[3]] = a;
+    neighbors[c][places[2]] = b;
+    neighbors[b][places[1]] = c;
 }
 
 /// Findings of one kind, so many, and no others.
@@ -183,6 +212,66 @@ TEST_CASE("a link of two spheres touching twice is found, though its Euler chara
     }
     const ManifoldReport report = examine(specimens::shuffled(hulls, 8));
     require_only(report, ManifoldDefect::singular_edge, 2);
+}
+
+TEMPLATE_TEST_CASE_SIG("claimed neighbours are confirmed when each is right, and only then", "", ((int D), D),
+                       2, 3) {
+    // more vertices than are looked at at once, in an order that follows space and in none
+    const auto ordered = specimens::torus<D>(D == 2 ? 280 : 43);
+    for (const Complex<D>& complex : {ordered, specimens::shuffled(ordered, 3)}) {
+        auto claimed = build_adjacency<D>(complex.cells, complex.vertices).neighbors;
+        REQUIRE(confirms<D>(complex, claimed));
+        std::mt19937 random{7};
+        for (int k = 0; k < 12; ++k) {
+            Index& entry = claimed[random() % claimed.size()][random() % (D + 1)];
+            const Index right = entry;
+            entry = k % 3 == 0 ? no_index : static_cast<Index>(random() % claimed.size());
+            REQUIRE_FALSE(confirms<D>(complex, claimed));
+            entry = right;
+        }
+        std::swap(claimed[5][0], claimed[5][1]);
+        REQUIRE_FALSE(confirms<D>(complex, claimed));
+        std::swap(claimed[5][0], claimed[5][1]);
+        claimed.pop_back();
+        REQUIRE_FALSE(confirms<D>(complex, claimed));
+    }
+}
+
+TEST_CASE("neighbours that pair the four cells of a facet by twos are not confirmed, though all links are "
+          "spheres") {
+    // Two spheres with a facet in common: opened there and glued crosswise, each vertex has one whole star.
+    Complex<2> surfaces{
+        {{0, 1, 2}, {1, 0, 3}, {0, 2, 3}, {1, 3, 2}, {0, 1, 4}, {1, 0, 5}, {0, 4, 5}, {1, 5, 4}}, 6};
+    auto around = build_adjacency<2>(surfaces.cells, surfaces.vertices).neighbors;
+    REQUIRE(around[0][2] == no_index);
+    cross<2>(around, {0, 1}, {4, 5}, {2, 2, 2, 2});
+    CHECK_FALSE(confirms<2>(surfaces, around));
+
+    Complex<3> spheres{{}, 7};
+    for (const std::array<Index, 5>& v :
+         {std::array<Index, 5>{0, 1, 2, 3, 4}, std::array<Index, 5>{0, 1, 2, 5, 6}}) {
+        // The boundary of a 4-simplex; the first two cells are those at facet 0, 1, 2.
+        spheres.cells.insert(spheres.cells.end(), {{v[0], v[1], v[2], v[3]},
+                                                   {v[1], v[0], v[2], v[4]},
+                                                   {v[0], v[1], v[3], v[4]},
+                                                   {v[2], v[0], v[3], v[4]},
+                                                   {v[1], v[2], v[3], v[4]}});
+    }
+    auto beside = build_adjacency<3>(spheres.cells, spheres.vertices).neighbors;
+    REQUIRE(beside[0][3] == no_index);
+    REQUIRE(build_adjacency<3>(spheres.cells, spheres.vertices).defects.size() == 1);
+    cross<3>(beside, {0, 1}, {5, 6}, {3, 3, 3, 3});
+    CHECK_FALSE(confirms<3>(spheres, beside));
+    for (const Index shift : {0u, 5u}) { // each sphere alone, in the same numbers, is fine
+        Complex<3> alone{{spheres.cells.begin() + shift, spheres.cells.begin() + shift + 5}, 7};
+        for (Simplex<3>& cell : alone.cells) {
+            for (Index& vertex : cell) {
+                vertex -= vertex > 4 ? 2 : 0;
+            }
+        }
+        alone.vertices = 5;
+        CHECK(confirms<3>(alone, build_adjacency<3>(alone.cells, 5).neighbors));
+    }
 }
 
 TEST_CASE("at most so many findings of a kind are kept, and all are counted") {

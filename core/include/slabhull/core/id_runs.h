@@ -64,7 +64,7 @@ public:
 
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
-    /// Cost: logarithmic in the number of runs.
+    /// Cost: logarithmic in the number of runs that are near.
     std::int64_t operator[](std::size_t at) const;
     std::int64_t back() const { return (*this)[size_ - 1]; }
     Iterator begin() const { return {this, 0}; }
@@ -90,8 +90,13 @@ private:
     const Run& run_of(std::size_t at) const;
     bool extends_last_run(std::int64_t id);
     void give_up_runs();
+    void grow(std::size_t count);
+
+    static constexpr std::size_t block = 1 << 12;
 
     std::vector<Run> runs_;
+    std::vector<std::size_t>
+        run_at_block_;          ///< for each whole number of blocks, the run of the id that is there
     Array<std::int64_t> plain_; ///< instead of runs, where there would be too many
     std::size_t size_ = 0;
 };

@@ -3,6 +3,7 @@
 
 #include "slabhull/core/point.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -61,6 +62,49 @@ std::array<Point<N>, D + 1> corners_of(const Simplex<D>& cell, std::span<const P
     return corners;
 }
 
+namespace detail {
+
+/// Sum with Neumaier's correction (Zeitschrift fuer angewandte Mathematik und Mechanik 54, 1974). What each
+/// step loses is found by Knuth's way, without a branch on which is larger.
+class CompensatedSum {
+public:
+    void add(double x) {
+        const double next = sum_ + x;
+        const double added = next - sum_;
+        lost_ += (sum_ - (next - added)) + (x - added);
+        sum_ = next;
+    }
+    void add(const CompensatedSum& other) {
+        add(other.sum_);
+        lost_ += other.lost_;
+    }
+    double value() const { return sum_ + lost_; }
+
+private:
+    double sum_ = 0;
+    double lost_ = 0;
+};
+
+/// The extreme cosines of dihedral angles, kept as cos |cos|: it grows with the cosine and needs no square
+/// root.
+struct CosineRange {
+    double smallest = 1;
+    double largest = -1;
+
+    void add(double s) {
+        smallest = std::min(smallest, s);
+        largest = std::max(largest, s);
+    }
+    void add(const CosineRange& other) { // which may be empty: smallest 1, largest -1
+        smallest = std::min(smallest, other.smallest);
+        largest = std::max(largest, other.largest);
+    }
+    /// The smallest cosine belongs to the largest angle.
+    AngleRange angles() const;
+};
+
+} // namespace detail
+
 /// Sums over a range of oriented D-simplices in R^(D+1).
 template<int D>
 struct Measures {
@@ -68,6 +112,7 @@ struct Measures {
     Point<D + 1> closure{};    ///< sum of N: zero over a closed hull
     double enclosed = 0;       ///< sum of x.N / (D+1): the measure that a closed hull encloses
     AngleRange angles{180, 0}; ///< over all simplices, in degrees
+    std::size_t cells = 0;
 };
 
 /// Compensated sums in a fixed order of pieces: the same for any number of threads. x is taken relative to
@@ -75,11 +120,22 @@ struct Measures {
 template<int D>
 Measures<D> measure_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells);
 
-/// The same by groups: group[c] < group_count is that of cell c.
+/// What measure_cells() sums, simplex by simplex, for those who look at each one anyway.
 template<int D>
-std::vector<Measures<D>> measure_groups(std::span<const Point<D + 1>> points,
-                                        std::span<const Simplex<D>> cells,
-                                        std::span<const std::uint8_t> group, std::size_t group_count);
+class MeasureSums {
+public:
+    /// Returns the normal of the simplex. x is taken relative to `origin`.
+    Point<D + 1> add(const std::array<Point<D + 1>, D + 1>& corners, const Point<D + 1>& origin);
+    void add(const MeasureSums& other);
+    Measures<D> value() const;
+
+private:
+    detail::CompensatedSum measure_;
+    detail::CompensatedSum enclosed_;
+    std::array<detail::CompensatedSum, D + 1> closure_;
+    detail::CosineRange cosines_;
+    std::size_t cells_ = 0;
+};
 
 /// Sums over D-simplices in R^D.
 struct SolidMeasures {
@@ -109,12 +165,8 @@ extern template AspectRatios aspect_ratios<2, 3>(std::span<const Point<3>>, std:
 extern template AspectRatios aspect_ratios<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 extern template Measures<2> measure_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
 extern template Measures<3> measure_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
-extern template std::vector<Measures<2>> measure_groups<2>(std::span<const Point<3>>,
-                                                           std::span<const Simplex<2>>,
-                                                           std::span<const std::uint8_t>, std::size_t);
-extern template std::vector<Measures<3>> measure_groups<3>(std::span<const Point<4>>,
-                                                           std::span<const Simplex<3>>,
-                                                           std::span<const std::uint8_t>, std::size_t);
+extern template class MeasureSums<2>;
+extern template class MeasureSums<3>;
 extern template SolidMeasures measure_solid<2>(std::span<const Point<2>>, std::span<const Simplex<2>>);
 extern template SolidMeasures measure_solid<3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
 

@@ -42,8 +42,8 @@ struct AdjacencyView {
 
     AdjacencyView() = default;
     AdjacencyView(const Adjacency<D>& stored) : neighbors{stored.neighbors}, defects{stored.defects} {}
-    /// One that confirms_adjacency() has found to be right, so that there are no defects.
-    explicit AdjacencyView(std::span<const Neighbors<D>> confirmed) : neighbors{confirmed} {}
+    /// Neighbours that are known to be right, so that there are no defects.
+    explicit AdjacencyView(std::span<const Neighbors<D>> right) : neighbors{right} {}
 };
 
 /// Adjacency of a soup of simplices, from vertex numbers alone (D = 1, 2, 3).
@@ -52,20 +52,8 @@ struct AdjacencyView {
 template<int D>
 Adjacency<D> build_adjacency(std::span<const Simplex<D>> cells, std::size_t vertex_count);
 
-/// Whether every facet is in exactly two cells that agree on it, and `claimed` says which, as
-/// build_adjacency() would. Nothing is taken from the claim: the adjacency is made anew for some vertices
-/// after the others, compared, and forgotten. So it costs the time of build_adjacency(), but 1 byte per cell,
-/// not 24. Needs: as build_adjacency(). False for a claim of the wrong length.
-template<int D>
-bool confirms_adjacency(std::span<const Simplex<D>> cells, std::size_t vertex_count,
-                        std::span<const Neighbors<D>> claimed);
-
 extern template Adjacency<1> build_adjacency<1>(std::span<const Simplex<1>>, std::size_t);
 extern template Adjacency<2> build_adjacency<2>(std::span<const Simplex<2>>, std::size_t);
 extern template Adjacency<3> build_adjacency<3>(std::span<const Simplex<3>>, std::size_t);
-extern template bool confirms_adjacency<2>(std::span<const Simplex<2>>, std::size_t,
-                                           std::span<const Neighbors<2>>);
-extern template bool confirms_adjacency<3>(std::span<const Simplex<3>>, std::size_t,
-                                           std::span<const Neighbors<3>>);
 
 } // namespace slabhull

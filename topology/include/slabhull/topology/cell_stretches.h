@@ -6,41 +6,46 @@
 #include "slabhull/core/point.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
+#include <bitset>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace slabhull {
 
-/// Cells in stretches of consecutive numbers, each with the range of the vertices that it names, so that what
-/// is done for some vertices after the others need not go through all cells each time: meshes are mostly
-/// numbered so that what is near in space is near in memory. 1/500 byte per cell.
+/// Cells in stretches of consecutive numbers, each with which of up to 256 blocks of consecutive vertices it
+/// names, so that what is done for some vertices after the others need not go through all cells each time:
+/// meshes are mostly numbered so that what is near in space is near in memory. 1/32 byte per cell.
 template<int D>
 class CellStretches {
 public:
-    static constexpr std::size_t length = 1 << 12;
+    static constexpr std::size_t length = 1 << 10;
 
-    explicit CellStretches(std::span<const Simplex<D>> cells) : cell_count_{cells.size()} {
-        range_.resize((cells.size() + length - 1) / length);
+    /// Needs: vertices of cells below `vertex_count`.
+    CellStretches(std::span<const Simplex<D>> cells, std::size_t vertex_count)
+        : cell_count_{cells.size()}, block_bits_{static_cast<int>(std::bit_width(vertex_count / blocks))} {
+        named_.resize((cells.size() + length - 1) / length);
         parallel_for(cells.size(), length, [&](std::size_t begin, std::size_t end) {
-            Index lowest = cells[begin][0];
-            Index highest = lowest;
+            Blocks& named = named_[begin / length];
             for (std::size_t c = begin; c < end; ++c) {
                 for (const Index v : cells[c]) {
-                    lowest = std::min(lowest, v);
-                    highest = std::max(highest, v);
+                    named[v >> block_bits_] = true;
                 }
             }
-            range_[begin / length] = {lowest, highest};
         });
     }
 
-    /// Those that may name vertices in [begin, end), by number.
+    /// Those that may name vertices in [begin, end), which are vertices of the mesh; by number.
     std::vector<Index> naming(std::size_t begin, std::size_t end) const {
+        Blocks wanted;
+        for (std::size_t block = begin >> block_bits_; begin < end && block <= (end - 1) >> block_bits_;
+             ++block) {
+            wanted.set(block);
+        }
         std::vector<Index> found;
-        for (std::size_t s = 0; s < range_.size(); ++s) {
-            if (range_[s][0] < end && range_[s][1] >= begin) {
+        for (std::size_t s = 0; s < named_.size(); ++s) {
+            if ((named_[s] & wanted).any()) {
                 found.push_back(static_cast<Index>(s));
             }
         }
@@ -57,8 +62,12 @@ public:
     }
 
 private:
+    static constexpr std::size_t blocks = 256;
+    using Blocks = std::bitset<blocks>;
+
     std::size_t cell_count_;
-    std::vector<std::array<Index, 2>> range_; ///< lowest and highest vertex
+    int block_bits_; ///< of a vertex's number, within its block
+    std::vector<Blocks> named_;
 };
 
 /// How many vertices to look at at once, so that it takes about `passes` goes through a large mesh.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -69,6 +70,15 @@ template<int D>
 ManifoldReport examine_manifold(std::span<const Simplex<D>> cells, std::size_t vertex_count,
                                 const AdjacencyView<D>& adjacency, const ManifoldOptions& options = {});
 
+/// The report of examine_manifold() when `claimed` are the cells' neighbours and the cells form a closed
+/// oriented manifold; else nothing, and build_adjacency() and examine_manifold() tell what is wrong. Nothing
+/// is believed: each facet is compared with what is said to be across it, and at each vertex no facet is met
+/// in two pairs of neighbours. Several times faster than finding the adjacency. Needs: vertices below
+/// `vertex_count`. Cost: linear; about 1 extra byte per cell.
+template<int D>
+std::optional<ManifoldReport> confirm_manifold(std::span<const Simplex<D>> cells, std::size_t vertex_count,
+                                               std::span<const Neighbors<D>> claimed);
+
 /// How many components the cells form when joined through facets. About 4 extra bytes per cell.
 template<int D>
 std::size_t count_components(std::span<const Neighbors<D>> neighbors);
@@ -77,6 +87,10 @@ extern template ManifoldReport examine_manifold<2>(std::span<const Simplex<2>>, 
                                                    const AdjacencyView<2>&, const ManifoldOptions&);
 extern template ManifoldReport examine_manifold<3>(std::span<const Simplex<3>>, std::size_t,
                                                    const AdjacencyView<3>&, const ManifoldOptions&);
+extern template std::optional<ManifoldReport> confirm_manifold<2>(std::span<const Simplex<2>>, std::size_t,
+                                                                  std::span<const Neighbors<2>>);
+extern template std::optional<ManifoldReport> confirm_manifold<3>(std::span<const Simplex<3>>, std::size_t,
+                                                                  std::span<const Neighbors<3>>);
 extern template std::size_t count_components<1>(std::span<const Neighbors<1>>);
 extern template std::size_t count_components<2>(std::span<const Neighbors<2>>);
 extern template std::size_t count_components<3>(std::span<const Neighbors<3>>);
