@@ -101,7 +101,9 @@ private:
         check_coincident<D + 1>(view_.points(), findings_);
         const bool caps = check_regions(view_, findings_);
         report_.time = view_.time;
-        view_.region.resize(view_.cells().size(), 1); // without a duration there are no regions
+        if (view_.region.empty()) { // without a duration there are none
+            view_.region.reset(view_.cells().size());
+        }
         const CellSurvey<D> survey = survey_cells(view_);
         report_degenerate<D, D + 1>(view_.points(), view_.cells(), survey.degenerate, findings_);
         add_measures(survey.regions);

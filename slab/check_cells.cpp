@@ -39,7 +39,7 @@ void survey_piece(const HullView<D>& view, double sign, std::size_t begin, std::
     const Point<D + 1> origin = view.points().front();
     for (std::size_t c = begin; c < end; ++c) {
         const auto corners = corners_of<D, D + 1>(view.cells()[c], view.points());
-        const Point<D + 1> normal = piece.sums[view.region[c]].add(corners, origin);
+        const Point<D + 1> normal = piece.sums[static_cast<std::size_t>(view.region[c])].add(corners, origin);
         if (is_degenerate<D, D + 1>(corners, length_of(normal)) && !repeats_vertex<D>(view.cells()[c])) {
             piece.degenerate.push_back(static_cast<Index>(c));
         }

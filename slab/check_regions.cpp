@@ -3,13 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <limits>
 
 namespace slabhull {
 
 namespace {
 
-constexpr std::array<const char*, 3> region_names{"initial cap", "side", "terminating cap"};
+const char* name_of(Region region) {
+    constexpr std::array<const char*, 3> names{"initial cap", "side", "terminating cap"};
+    return names[static_cast<std::size_t>(region)];
+}
 
 template<int D>
 std::array<double, 2> time_range(std::span<const Point<D + 1>> points) {
@@ -54,17 +58,24 @@ std::array<double, 2> slab_times(const HullView<D>& view, Findings& findings) {
     return claimed;
 }
 
-/// Returns the cells that are flat in time, and in no cap.
+struct FoundRegions {
+    std::array<std::atomic<bool>, 3> any{}; ///< cell in each
+    std::vector<Index> flat;                ///< cells, in time, that are in no cap
+};
+
 template<int D>
-std::vector<Index> find_regions(HullView<D>& view) {
-    view.region.resize(view.cells().size());
-    return select(view.cells().size(), [&](std::size_t c) {
+void find_regions(HullView<D>& view, FoundRegions& found) {
+    view.region.reset(view.cells().size());
+    found.flat = select(view.cells().size(), [&](std::size_t c) {
         const auto [first, last] = view.span_of(c);
         const Region region = first != last           ? Region::intermediate
                               : first == view.time[0] ? Region::initial
                               : first == view.time[1] ? Region::terminating
                                                       : Region::intermediate;
-        view.region[c] = static_cast<std::uint8_t>(region);
+        view.region.set(c, region);
+        if (auto& any = found.any[static_cast<std::size_t>(region)]; !any.load(std::memory_order_relaxed)) {
+            any = true;
+        }
         return region == Region::intermediate && first == last;
     });
 }
@@ -72,7 +83,7 @@ std::vector<Index> find_regions(HullView<D>& view) {
 template<int D>
 void compare_regions(const HullView<D>& view, Findings& findings) {
     const auto bad = select_rows(view.hull.region, [&](std::size_t c, const std::int64_t* claimed) {
-        return *claimed != view.region[c];
+        return *claimed != static_cast<std::int64_t>(view.region[c]);
     });
     for (const Index c : bad) {
         const std::int64_t claimed = row_of(view.hull.region, c)[0];
@@ -82,12 +93,12 @@ void compare_regions(const HullView<D>& view, Findings& findings) {
             findings.cell(
                 Defect::cap_not_flat, c,
                 fmt::format("said to be in the {}, which is at t = {}, but its vertices have t = {} to {}",
-                            region_names[static_cast<std::size_t>(claimed)], view.time[claimed == 0 ? 0 : 1],
-                            first, last));
+                            name_of(static_cast<Region>(claimed)), view.time[claimed == 0 ? 0 : 1], first,
+                            last));
         } else {
             findings.cell(Defect::wrong_region, c,
                           fmt::format("said to be in region {}, but its vertices' times put it in the {}",
-                                      claimed, region_names[view.region[c]]));
+                                      claimed, name_of(view.region[c])));
         }
     }
 }
@@ -127,12 +138,12 @@ bool check_regions(HullView<D>& view, Findings& findings) {
         findings.other(Defect::no_duration, {}, fmt::format("all vertices are at t = {}", view.time[0]));
         return false;
     }
-    const std::vector<Index> flat = find_regions(view);
+    FoundRegions found;
+    find_regions(view, found);
     for (const Region cap : {Region::initial, Region::terminating}) {
-        const auto code = static_cast<std::uint8_t>(cap);
-        if (std::find(view.region.begin(), view.region.end(), code) == view.region.end()) {
+        if (!found.any[static_cast<std::size_t>(cap)]) {
             findings.other(Defect::missing_cap, {},
-                           fmt::format("no {}: no cell has all its vertices at t = {}", region_names[code],
+                           fmt::format("no {}: no cell has all its vertices at t = {}", name_of(cap),
                                        view.time[cap == Region::initial ? 0 : 1]));
         }
     }
@@ -142,7 +153,7 @@ bool check_regions(HullView<D>& view, Findings& findings) {
     if (view.hull.region.given()) {
         compare_regions(view, findings);
     }
-    report_flat(view, flat, findings);
+    report_flat<D>(view, found.flat, findings);
     return true;
 }
 
@@ -150,7 +161,7 @@ template<int D>
 void report_inverted(const HullView<D>& view, std::span<const Index> inverted, Findings& findings) {
     for (const Index c : inverted) {
         findings.cell(Defect::inverted_cell, c,
-                      fmt::format("its normal does not point out of the {}", region_names[view.region[c]]));
+                      fmt::format("its normal does not point out of the {}", name_of(view.region[c])));
     }
 }
 

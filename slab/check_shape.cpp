@@ -80,16 +80,15 @@ private:
     Array<std::uint64_t> words_;
 };
 
-/// Points whose fingerprints may be another's, too: few besides those that are. A table of bits, sixteen for
-/// each point, says so for a sixth of the time that it takes to sort all fingerprints.
+/// Points whose fingerprints may be another's, too, ascending: an eighth besides those that are. A table of
+/// bits, eight for each point, says so for a sixth of the time that it takes to sort all fingerprints.
 template<int N>
 std::vector<Index> may_coincide(std::span<const Point<N>> points) {
     constexpr std::size_t grain = 1 << 16;
     constexpr std::size_t ahead = 16;
-    const int shift = 64 - std::bit_width(16 * points.size() + 1);
-    const auto bit = [&](std::size_t v) { return fingerprint(points[v]) >> shift; };
-    SharedBits met{std::size_t{1} << (64 - shift)};
-    SharedBits met_again{std::size_t{1} << (64 - shift)};
+    const auto bit = [&](std::size_t v) { return (fingerprint(points[v]) >> 32) * points.size() >> 29; };
+    SharedBits met{8 * points.size()};
+    SharedBits met_again{8 * points.size()};
     parallel_for(points.size(), grain, [&](std::size_t begin, std::size_t end) {
         std::array<std::uint64_t, ahead> bits;
         for (std::size_t v = begin; v < end + ahead; ++v) {
@@ -107,7 +106,7 @@ std::vector<Index> may_coincide(std::span<const Point<N>> points) {
 /// Pairs of a vertex and the first one with the same coordinates, ascending.
 template<int N>
 std::vector<std::array<Index, 2>> coincident_pairs(std::span<const Point<N>> points) {
-    std::vector<std::pair<std::uint64_t, Index>> order;
+    Array<std::pair<std::uint64_t, Index>> order; // not of the heap, which would keep its memory
     for (const Index v : may_coincide<N>(points)) {
         order.emplace_back(fingerprint(points[v]), v);
     }

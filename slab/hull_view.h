@@ -12,19 +12,41 @@
 
 namespace slabhull {
 
+/// The region of each cell, in two bits.
+class RegionList {
+public:
+    /// All on the side.
+    void reset(std::size_t cells) { packed_.assign((cells + 3) / 4, 0b01010101); }
+    bool empty() const { return packed_.empty(); }
+    Region operator[](std::size_t cell) const {
+        return static_cast<Region>(packed_[cell / 4] >> shift(cell) & 3u);
+    }
+    /// Several threads at once must keep to whole fours of cells.
+    void set(std::size_t cell, Region region) {
+        std::uint8_t& four = packed_[cell / 4];
+        four = static_cast<std::uint8_t>((four & ~(3u << shift(cell))) | static_cast<unsigned>(region)
+                                                                             << shift(cell));
+    }
+
+private:
+    static unsigned shift(std::size_t cell) { return 2 * (cell % 4); }
+
+    Array<std::uint8_t> packed_;
+};
+
 /// A hull under examination: what is claimed, and what was found out about it so far.
 template<int D>
 struct HullView {
     HullColumns<D> hull;
     AdjacencyView<D> adjacency;
     std::array<double, 2> time{};
-    Array<std::uint8_t> region; ///< of each cell, as its vertices' times show it
-    IdRuns track;               ///< of each vertex; empty when not given
+    RegionList region; ///< of each cell, as its vertices' times show it
+    IdRuns track;      ///< of each vertex; empty when not given
 
     std::span<const Point<D + 1>> points() const { return hull.points; }
     std::span<const Simplex<D>> cells() const { return hull.cells; }
     double time_of(Index vertex) const { return hull.points[vertex][D]; }
-    Region region_of(std::size_t cell) const { return static_cast<Region>(region[cell]); }
+    Region region_of(std::size_t cell) const { return region[cell]; }
     bool in_cap(std::size_t cell) const { return region_of(cell) != Region::intermediate; }
     /// Earliest and latest time of a cell's vertices.
     std::array<double, 2> span_of(std::size_t cell) const {
