@@ -46,6 +46,7 @@ using Seconds = std::map<std::string, double>;
 
 struct Run {
     std::size_t tets = 0;
+    int cap_blocks = 0; ///< of the terminating cap, as chosen for the memory there is
     Seconds stages;
     double cpu_beside = 0;  ///< of this process
     double cpu_meshers = 0; ///< of the meshers' processes
@@ -68,6 +69,7 @@ Run run(double tets, const std::filesystem::path& folder) {
     result.cpu_beside = cpu_seconds(RUSAGE_SELF) - self;
     result.cpu_meshers = cpu_seconds(RUSAGE_CHILDREN) - children;
     const Json report = Json::parse(std::ifstream{folder / "report.json"});
+    result.cap_blocks = report["slabs"][0]["cap"]["blocks"];
     for (const Json& part : {report["initial_cap"], report["slabs"][0]}) {
         for (const auto& [stage, seconds] : part["seconds"].items()) {
             result.stages[stage] += seconds.get<double>();
@@ -82,6 +84,7 @@ Run run(double tets, const std::filesystem::path& folder) {
 
 Json as_json(const Run& run) {
     Json json{{"tets", run.tets},
+              {"cap_blocks", run.cap_blocks},
               {"beside_cap_meshing", run.beside() / run.meshing()},
               {"cpu_beside_meshers", run.cpu_beside / run.cpu_meshers}};
     for (const auto& [stage, seconds] : run.stages) {

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 
 namespace slabhull {
 
 /// Bytes that this process and its children can still take without swapping: what the machine has free, or
-/// what the control group that it runs in leaves, if that is less. A quarter of an exbibyte when neither is
-/// told.
-std::size_t available_memory();
+/// what the control groups that it runs in leave (either version), if that is less. A quarter of an exbibyte
+/// when neither is told. `root` is where proc and sys are.
+std::size_t available_memory(const std::filesystem::path& root = "/");
 
 } // namespace slabhull
