@@ -34,7 +34,7 @@ ChildEnd run_in_child(const std::function<void(const Send&)>& job,
 /// What a child has to say.
 struct ChildAnswer {
     ChildEnd end;
-    std::string text; ///< what the job returned, or why it failed; empty when the child ended without a word
+    std::string text; ///< what the job returned, or why it failed; only if end.received
 };
 
 /// Runs a job whose result is a text in a child. When it throws, the text is the what() of that, and the exit
