@@ -225,14 +225,14 @@ class Levels(ProgramTest):
         self.assertIn("circle, level 4, split centre: ", messages)
 
     def test_a_process_that_is_killed_is_named_with_the_signal(self):
-        study = self.study("sphere", "--levels", "2")
+        study = self.study("sphere", "--levels", "6")
         children = Path(f"/proc/{study.pid}/task/{study.pid}/children")
         while study.poll() is None and not children.read_text():
             time.sleep(0.01)
         os.kill(int(children.read_text().split()[0]), signal.SIGKILL)
         _, messages = study.communicate(timeout=600)
         self.assertEqual(study.returncode, GEOMETRY, messages)
-        self.assertIn("sphere, level 2, split E: its process was ended by signal 9", messages)
+        self.assertIn("sphere, level 6, split E: its process was ended by signal 9", messages)
 
 
 class Refusals(ProgramTest):
