@@ -12,6 +12,7 @@
 #include <mutex>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -29,36 +30,17 @@ constexpr int job_threw = 3;
     throw std::system_error{errno, std::generic_category(), what};
 }
 
-/// A process that is ended and waited for at the latest when its handle goes.
-class Child {
-public:
-    explicit Child(pid_t id) : id_{id} {}
-    Child(const Child&) = delete;
-    Child& operator=(const Child&) = delete;
-    ~Child() {
-        if (id_ > 0) {
-            kill(id_, SIGKILL);
-            wait();
-        }
+ChildEnd wait_for(pid_t child) {
+    int status = 0;
+    pid_t ended = 0;
+    do {
+        ended = waitpid(child, &status, 0);
+    } while (ended < 0 && errno == EINTR);
+    if (ended < 0) { // a host that ignores SIGCHLD leaves nothing to wait for
+        return {};
     }
-
-    ChildEnd wait() {
-        int status = 0;
-        pid_t ended = 0;
-        do {
-            ended = waitpid(id_, &status, 0);
-        } while (ended < 0 && errno == EINTR);
-        id_ = 0;
-        if (ended < 0) { // a host that ignores SIGCHLD leaves nothing to wait for
-            return {};
-        }
-        return {false, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
-                WIFEXITED(status) ? WEXITSTATUS(status) : 0};
-    }
-
-private:
-    pid_t id_;
-};
+    return {false, WIFSIGNALED(status) ? WTERMSIG(status) : 0, WIFEXITED(status) ? WEXITSTATUS(status) : 0};
+}
 
 class Descriptor {
 public:
@@ -70,9 +52,8 @@ public:
     int number() const { return number_; }
     void close_now() {
         if (number_ >= 0) {
-            close(number_);
+            close(std::exchange(number_, -1));
         }
-        number_ = -1;
     }
 
 private:
@@ -188,16 +169,21 @@ ChildEnd run_in_child(const std::function<void(const Send&)>& job,
         start.unlock(); // the copy of it, for children of the child
         live_as_child(parent, in, out, job);
     }
-    Child child{id};
     out.close_now(); // so that the child's end is the end of the stream
     start.unlock();
-    const bool received = receive([&](void* bytes, std::size_t size) {
-        return transfer(read, in.number(), static_cast<char*>(bytes), size);
-    });
-    in.close_now();
-    ChildEnd end = child.wait();
-    end.received = received;
-    return end;
+    try {
+        const bool received = receive([&](void* bytes, std::size_t size) {
+            return transfer(read, in.number(), static_cast<char*>(bytes), size);
+        });
+        in.close_now();
+        ChildEnd end = wait_for(id);
+        end.received = received;
+        return end;
+    } catch (...) {
+        kill(id, SIGKILL);
+        wait_for(id);
+        throw;
+    }
 }
 
 ChildAnswer ask_child(const std::function<std::string()>& job) {

@@ -24,6 +24,7 @@ void set_limit(int resource, rlim_t limit) {
 void limit_memory([[maybe_unused]] std::uint64_t more) {
 #ifndef __SANITIZE_ADDRESS__
     unsigned long pages = 0;
+    // No C++ stream: the child of a process with threads could wait for the lock of the global locale.
     if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
         const bool read = std::fscanf(file, "%lu", &pages) == 1;
         std::fclose(file);
@@ -41,10 +42,12 @@ void limit_child(std::uint64_t bytes) {
     limit_memory(bytes + 256 * megabyte);
 }
 
-ChildAnswer ask_limited_child(const std::string& name, std::uint64_t bytes,
-                              const std::function<void()>& work) {
+} // namespace
+
+void rehearse(const std::string& name, std::uint64_t bytes, const std::function<void()>& work) {
+    ChildAnswer answer;
     try {
-        return ask_child([&] {
+        answer = ask_child([&] {
             limit_child(bytes);
             work();
             return std::string{};
@@ -52,12 +55,6 @@ ChildAnswer ask_limited_child(const std::string& name, std::uint64_t bytes,
     } catch (const std::system_error& error) {
         throw InputError(fmt::format("{}: cannot be read: {}", name, error.code().message()));
     }
-}
-
-} // namespace
-
-void rehearse(const std::string& name, std::uint64_t bytes, const std::function<void()>& work) {
-    const ChildAnswer answer = ask_limited_child(name, bytes, work);
     if (answer.end.signal != 0) {
         throw InputError(fmt::format("{}: it is damaged: the library that reads it ends with \"{}\"", name,
                                      ::strsignal(answer.end.signal)));
