@@ -2,9 +2,14 @@
 #include "slabhull/core/memory.h"
 
 #include <algorithm>
+#include <cstdlib> // defines __GLIBC__
 #include <fstream>
 #include <optional>
 #include <string>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace slabhull {
 
@@ -95,6 +100,12 @@ std::size_t free_in_own_groups(const fs::path& root) {
 
 std::size_t available_memory(const fs::path& root) {
     return std::min(free_on_machine(root), free_in_own_groups(root));
+}
+
+void give_back_freed_memory() {
+#ifdef __GLIBC__
+    ::malloc_trim(0);
+#endif
 }
 
 } // namespace slabhull

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <system_error>
 
 namespace slabhull {
 
@@ -21,6 +22,19 @@ bool receive_mesh(const Receive& receive, MesherHeading& heading, CapMesh<3>& me
     mesh.neighbors.resize(static_cast<std::size_t>(heading.neighbors));
     const auto fill = [&](auto& array) { return receive(array.data(), array.size() * sizeof array[0]); };
     return fill(mesh.points) && fill(mesh.cells) && fill(mesh.neighbors);
+}
+
+ChildEnd run_silently(const std::function<void(const Send&)>& job,
+                      const std::function<bool(const Receive&)>& receive) {
+    const auto silent_job = [&](const Send& send) {
+        fall_silent(); // TetGen prints whatever it is told
+        job(send);
+    };
+    try {
+        return run_in_child(silent_job, receive);
+    } catch (const std::system_error& error) {
+        throw GeometryError{fmt::format("cannot start a child process for the mesher: {}", error.what())};
+    }
 }
 
 std::string end_in_words(const ChildEnd& end) {
@@ -46,7 +60,7 @@ CapMesh<3> fill_in_child(const Surface<3>& surface, const std::function<void(con
     CapMesh<3> mesh;
     MesherHeading heading;
     const ChildEnd end =
-        run_in_child(job, [&](const Receive& receive) { return receive_mesh(receive, heading, mesh); });
+        run_silently(job, [&](const Receive& receive) { return receive_mesh(receive, heading, mesh); });
     if (!end.received || heading.status != 0) {
         throw GeometryError{fmt::format("the 3D mesher, given a surface of {} triangles and {} points, {}",
                                         surface.facets.size(), surface.points.size(),

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "child_process.h"
-
+#include "slabhull/core/child_process.h"
 #include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/geometry/size_field.h"
 

@@ -3,6 +3,7 @@
 
 #include "check_shape.h"
 #include "hull_view.h"
+#include "slabhull/core/memory.h"
 #include "slabhull/topology/homology.h"
 
 #include <fmt/format.h>
@@ -25,6 +26,7 @@ public:
 
     HullReport run() {
         report_.dimension = D;
+        give_back_freed_memory(); // that of building the hull
         check_column_lengths(view_.hull, findings_);
         if (!check_indices<D>(view_.cells(), view_.points().size(), findings_)) {
             findings_.skip("all but the indices",

@@ -6,6 +6,7 @@
 #include "prism_graph.h"
 #include "side_vertices.h"
 #include "slabhull/core/error.h"
+#include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
 
 #include <algorithm>
@@ -47,6 +48,7 @@ public:
 
     /// The caps go first: memory of the hull is taken when it is written to, and theirs may be given back.
     Hull<D> run() {
+        give_back_freed_memory(); // that of meshing and of the sweep
         describe();
         const Array<CellFacet> initial_boundary = boundary_of_cap(initial_.mesh());
         const Array<CellFacet> terminating_boundary = boundary_of_cap(terminating_.mesh());

@@ -2,23 +2,20 @@
 // Each hull is built in a process of its own, one after the other, so that peak memory is that of one level.
 #include "commands.h"
 
+#include "slabhull/core/child_process.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/slab/study.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <csignal>
-#include <cstring>
+#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
 #include <memory>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <system_error>
 
 namespace slabhull::tools {
 
@@ -107,86 +104,28 @@ std::vector<Case> cases_of(const StudyOptions& options) {
 
 // --- A level in a process of its own --------------------------------------------------------------
 
-[[noreturn]] void refuse(const char* what) {
-    throw GeometryError(
-        fmt::format("cannot start a process for a level: {}: {}", what, std::strerror(errno)));
-}
-
-/// How a child ended.
-struct Answer {
-    int status = 0;   ///< as waitpid() has it
-    std::string text; ///< the row, or what went wrong
-};
-
-void send(int to, const std::string& text) {
-    for (std::size_t sent = 0; sent < text.size();) {
-        const ssize_t put = ::write(to, text.data() + sent, text.size() - sent);
-        if (put < 0 && errno != EINTR) {
-            return;
-        }
-        sent += put > 0 ? static_cast<std::size_t>(put) : 0;
-    }
-}
-
-/// Ends the process: 0 with the job's result sent, or the exit code of its error with what it says.
-[[noreturn]] void run_child(int to, const std::function<std::string()>& job) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    int code = 0;
-    try {
-        send(to, job());
-    } catch (const Error& error) {
-        send(to, error.what());
-        code = static_cast<int>(error.failure());
-    } catch (const std::exception& error) { // out of memory, mostly
-        send(to, error.what());
-        code = static_cast<int>(Failure::geometry);
-    }
-    ::_exit(code);
-}
-
 /// Forks: this process has started no threads, so the child may start its own.
-Answer in_child(const std::function<std::string()>& job) {
-    int ends[2];
-    if (::pipe(ends) != 0) {
-        refuse("no pipe");
+ChildAnswer in_child(const std::function<std::string()>& job) {
+    std::fflush(nullptr); // or the child would have it, too
+    try {
+        return ask_child(job);
+    } catch (const std::system_error& error) {
+        throw GeometryError(fmt::format("cannot start a process for a level: {}", error.what()));
     }
-    std::fflush(nullptr);
-    const pid_t child = ::fork();
-    if (child < 0) {
-        refuse("no process");
-    }
-    if (child == 0) {
-        ::close(ends[0]);
-        run_child(ends[1], job);
-    }
-    ::close(ends[1]);
-    Answer answer;
-    char buffer[4096];
-    for (ssize_t got = 1; got != 0;) {
-        got = ::read(ends[0], buffer, sizeof buffer);
-        if (got < 0 && errno != EINTR) {
-            break;
-        }
-        answer.text.append(buffer, static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-    }
-    ::close(ends[0]);
-    while (::waitpid(child, &answer.status, 0) < 0 && errno == EINTR) {
-    }
-    return answer;
 }
 
 StudyRow study_alone(const Case& the_case, const std::optional<std::filesystem::path>& hull_file) {
-    const Answer answer = in_child([&] { return row_as_text(study_level(the_case, hull_file)); });
+    const ChildAnswer answer = in_child([&] { return row_as_text(study_level(the_case, hull_file)); });
     const std::string where = fmt::format("{}, level {}, split {}", the_case.experiment, the_case.level,
                                           split_name(the_case.split));
-    if (!WIFEXITED(answer.status)) {
+    if (answer.end.signal != 0) {
         throw GeometryError(
             fmt::format("{}: its process was ended by signal {}; if memory was short, --levels with "
                         "a lower last one helps",
-                        where, WTERMSIG(answer.status)));
+                        where, answer.end.signal));
     }
-    if (const int code = WEXITSTATUS(answer.status); code != 0) {
-        throw Error(static_cast<Failure>(code), fmt::format("{}: {}", where, answer.text));
+    if (answer.end.exit_code != 0) {
+        throw Error(static_cast<Failure>(answer.end.exit_code), fmt::format("{}: {}", where, answer.text));
     }
     return row_from_text(answer.text);
 }

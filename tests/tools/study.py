@@ -3,17 +3,22 @@
 import csv
 import json
 import math
+import os
+import resource
 import shutil
+import signal
 import struct
 import subprocess
+import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 import zlib
+from pathlib import Path
 
 import harness
 from harness import ProgramTest, slabhull
 
-USAGE, OUTPUT = 2, 5
+USAGE, GEOMETRY, OUTPUT = 2, 4, 5
 MEASURES = ("hull", "initial", "side", "terminating", "enclosed")
 # The paper's tables: simplices and vertices of the levels that are built here.
 PAPER = {("circle", 1): (2714, 1357), ("circle", 2): (5308, 2654), ("circle", 3): (10022, 5011),
@@ -195,6 +200,39 @@ def unfilter(kind, line, before, size):
         else:
             guess = {1: a, 2: b, 3: (a + b) // 2}[kind]
         line[i] = (line[i] + guess) & 255
+
+
+class Levels(ProgramTest):
+    """Each is built by a process of its own, which fails alone."""
+
+    def study(self, *arguments, **how):
+        command = [harness.PROGRAM, "study", *arguments, "--out", str(self.dir / "out")]
+        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **how)
+
+    def test_a_level_that_cannot_be_written_is_named_with_the_cause_and_its_exit_code(self):
+        (self.dir / "out/circle-centre-2.vtu").mkdir(parents=True)
+        result = slabhull("study", "circle", "--levels", "1-2", "--hulls", "--out", self.dir / "out")
+        self.assertEqual(result.code, OUTPUT)
+        self.assertIn("circle, level 2, split centre: ", result.err)
+        self.assertIn("circle-centre-2.vtu", result.err)
+        self.assertTrue((self.dir / "out/study.csv").exists())  # with level 1
+
+    def test_a_file_size_limit_is_a_message_there_too(self):
+        study = self.study("circle", "--levels", "4", "--hulls",
+                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)))
+        _, messages = study.communicate(timeout=600)
+        self.assertEqual(study.returncode, OUTPUT, messages)
+        self.assertIn("circle, level 4, split centre: ", messages)
+
+    def test_a_process_that_is_killed_is_named_with_the_signal(self):
+        study = self.study("sphere", "--levels", "6")
+        children = Path(f"/proc/{study.pid}/task/{study.pid}/children")
+        while study.poll() is None and not children.read_text():
+            time.sleep(0.01)
+        os.kill(int(children.read_text().split()[0]), signal.SIGKILL)
+        _, messages = study.communicate(timeout=600)
+        self.assertEqual(study.returncode, GEOMETRY, messages)
+        self.assertIn("sphere, level 6, split E: its process was ended by signal 9", messages)
 
 
 class Refusals(ProgramTest):

@@ -11,4 +11,8 @@ namespace slabhull {
 /// when neither is told. `root` is where proc and sys are.
 std::size_t available_memory(const std::filesystem::path& root = "/");
 
+/// Gives memory that was freed, but kept for later, back to the machine; to be called before much is taken
+/// for long. A few milliseconds. Nothing where the C library has no way.
+void give_back_freed_memory();
+
 } // namespace slabhull

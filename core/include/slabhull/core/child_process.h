@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace slabhull {
+
+/// How a child process ended.
+struct ChildEnd {
+    bool received = false; ///< the parent got all it asked for
+    int signal = 0;        ///< that killed it, 0 for none
+    int exit_code = 0;
+};
+
+/// Writes `size` bytes to the parent; ends the child when nobody listens.
+using Send = std::function<void(const void* bytes, std::size_t size)>;
+/// Reads exactly `size` bytes from the child; false when it ended before.
+using Receive = std::function<bool(void* bytes, std::size_t size)>;
+
+/// Runs `job` in a forked copy of this process, whose crash costs nothing: it may read all memory of the
+/// caller, and what it writes to memory is lost. It has one thread, and may start parallel loops only when
+/// the caller's process had no other threads. The host's signal handlers do not run in it, and what the host
+/// ignores stays ignored; streams are flushed neither before nor after. A job that throws ends it with exit
+/// code 3. `receive` runs here meanwhile and returns whether it got all. The bytes go through a pipe straight
+/// to where the caller wants them, so that no copy is held in between.
+/// The child dies with the calling thread, by Ctrl-C too.
+/// Throws std::system_error when the system gives no pipe or process; what `receive` throws, when the child
+/// has ended.
+ChildEnd run_in_child(const std::function<void(const Send&)>& job,
+                      const std::function<bool(const Receive&)>& receive);
+
+/// What a child has to say.
+struct ChildAnswer {
+    ChildEnd end;
+    std::string text; ///< what the job returned, or why it failed; only if end.received
+};
+
+/// Runs a job whose result is a text in a child. When it throws, the text is the what() of that, and the exit
+/// code the one of the Error, that of Failure::geometry for other exceptions.
+/// Throws as run_in_child() does when the system gives no pipe or process.
+ChildAnswer ask_child(const std::function<std::string()>& job);
+
+/// For jobs that foreign code may crash: from here on this process prints nothing, reads nothing from the
+/// standard input and leaves no core.
+void fall_silent();
+
+} // namespace slabhull
