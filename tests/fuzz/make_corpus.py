@@ -13,11 +13,10 @@ import gmsh
 import meshio
 import numpy as np
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "io"))
-from mesh_samples import COMPRESSORS, MODES, ORDERS, WORDS, Turned  # noqa: E402
+from mesh_samples import COMPRESSORS, MODES, ORDERS, WORDS, Turned, vtk_grid  # noqa: E402
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1.25, 1, 1 / 3]])
 CELLS = {"tetra": np.array([[0, 1, 2, 3], [1, 2, 3, 4]]), "triangle": np.array([[0, 1, 2], [1, 3, 2], [0, 3, 1]]),
@@ -37,29 +36,11 @@ def put(reader, name, text):
 
 # --- VTK
 
-def grid(kind="tetra", data=True):
-    result = vtk.vtkUnstructuredGrid()
-    points = vtk.vtkPoints()
-    points.SetData(numpy_to_vtk(POINTS, deep=True))
-    result.SetPoints(points)
+def grid(kind="tetra"):
     cells = CELLS[kind]
-    flat = np.hstack([np.full((len(cells), 1), cells.shape[1]), cells]).astype(np.int64).ravel()
-    array = vtk.vtkCellArray()
-    array.SetCells(len(cells), numpy_to_vtkIdTypeArray(flat, deep=True))
-    result.SetCells(VTK_TYPE[kind], array)
-    if data:
-        for owner, name, values in ((result.GetPointData(), "t", np.linspace(0, 1, 5)),
-                                    (result.GetPointData(), "id", np.arange(5, dtype=np.int64)),
-                                    (result.GetCellData(), "pair", np.arange(2 * len(cells), dtype=np.int8).reshape(-1, 2))):
-            column = numpy_to_vtk(values, deep=True)
-            column.SetName(name)
-            owner.AddArray(column)
-        names = vtk.vtkStringArray()
-        names.SetName("names")
-        for name in ("in let", "", "walls"):
-            names.InsertNextValue(name)
-        result.GetFieldData().AddArray(names)
-    return result
+    return vtk_grid(VTK_TYPE[kind], POINTS, cells,
+                    {"t": np.linspace(0, 1, 5), "id": np.arange(5, dtype=np.int64)},
+                    {"pair": np.arange(2 * len(cells), dtype=np.int8).reshape(-1, 2)})
 
 
 def vtu_by_vtk():
@@ -103,7 +84,7 @@ def legacy_by_vtk():
         writer.SetFileType(vtk.VTK_BINARY if binary else vtk.VTK_ASCII)
         assert writer.Write() == 1
         surface = vtk.vtkPolyData()
-        triangles = grid("triangle", data=False)
+        triangles = grid("triangle")
         surface.SetPoints(triangles.GetPoints())
         surface.SetPolys(triangles.GetCells())
         writer = vtk.vtkPolyDataWriter()

@@ -44,25 +44,30 @@ class Mesh:
             values.astype(np.float64 if real else np.int64).tofile(directory / f"{name}.{'f64' if real else 'i64'}")
 
     def vtk_grid(self):
-        grid = vtk.vtkUnstructuredGrid()
-        points = vtk.vtkPoints()
-        points.SetData(numpy_to_vtk(self.points, deep=True))
-        grid.SetPoints(points)
-        flat = np.hstack([np.full((CELLS, 1), 4), self.cells]).astype(np.int64).ravel()
-        cells = vtk.vtkCellArray()
-        cells.SetCells(CELLS, numpy_to_vtkIdTypeArray(flat, deep=True))
-        grid.SetCells(vtk.VTK_TETRA, cells)
-        for data, attributes in ((self.point_data, grid.GetPointData()), (self.cell_data, grid.GetCellData())):
-            for name, values in data.items():
-                array = numpy_to_vtk(values, deep=True)
-                array.SetName(name)
-                attributes.AddArray(array)
-        names = vtk.vtkStringArray()
-        names.SetName("names")
-        for name in ("in let", "", "walls"):
-            names.InsertNextValue(name)
-        grid.GetFieldData().AddArray(names)
-        return grid
+        return vtk_grid(vtk.VTK_TETRA, self.points, self.cells, self.point_data, self.cell_data)
+
+
+def vtk_grid(cell_type, points, cells, point_data, cell_data):
+    """With an array of strings over the whole grid, too."""
+    grid = vtk.vtkUnstructuredGrid()
+    places = vtk.vtkPoints()
+    places.SetData(numpy_to_vtk(points, deep=True))
+    grid.SetPoints(places)
+    flat = np.hstack([np.full((len(cells), 1), cells.shape[1]), cells]).astype(np.int64).ravel()
+    array = vtk.vtkCellArray()
+    array.SetCells(len(cells), numpy_to_vtkIdTypeArray(flat, deep=True))
+    grid.SetCells(cell_type, array)
+    for data, attributes in ((point_data, grid.GetPointData()), (cell_data, grid.GetCellData())):
+        for name, values in data.items():
+            column = numpy_to_vtk(values, deep=True)
+            column.SetName(name)
+            attributes.AddArray(column)
+    names = vtk.vtkStringArray()
+    names.SetName("names")
+    for name in ("in let", "", "walls"):
+        names.InsertNextValue(name)
+    grid.GetFieldData().AddArray(names)
+    return grid
 
 
 MODES = {
