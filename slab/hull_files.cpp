@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <mutex>
+#include <unordered_map>
 
 namespace slabhull {
 
@@ -174,8 +175,10 @@ void write_hull_vtu(io::AtomicFile& file, const Hull<D>& hull, const io::WriteOp
 template<int D>
 std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
     PatchNumber largest = 0;
+    std::unordered_map<PatchNumber, std::string> names; // patches, and then runs, may be very many
     for (const Patch& patch : hull.patches) {
         largest = std::max(largest, patch.number);
+        names.emplace(patch.number, patch_name({patch}, patch.number));
     }
     std::vector<MeshColumns::Group> groups{{0, hull.initial_cells, largest + 1, "initial"}};
     for (std::size_t layer = 0; layer < hull.layers; ++layer) {
@@ -186,8 +189,9 @@ std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
             if (groups.back().number == number) {
                 groups.back().end = begin + hull.cells_per_prism;
             } else {
-                groups.push_back(
-                    {begin, begin + hull.cells_per_prism, number, patch_name(hull.patches, number)});
+                const auto name = names.find(number);
+                groups.push_back({begin, begin + hull.cells_per_prism, number,
+                                  name != names.end() ? name->second : patch_name({}, number)});
             }
         }
     }
