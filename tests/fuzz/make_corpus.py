@@ -16,7 +16,7 @@ import vtk
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "io"))
-from mesh_samples import COMPRESSORS, MODES, ORDERS, WORDS, Turned, vtk_grid  # noqa: E402
+from mesh_samples import COMPRESSORS, MODES, ORDERS, WORDS, saved_by_gmsh, vtk_grid, write_turned  # noqa: E402
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1.25, 1, 1 / 3]])
 CELLS = {"tetra": np.array([[0, 1, 2, 3], [1, 2, 3, 4]]), "triangle": np.array([[0, 1, 2], [1, 3, 2], [0, 3, 1]]),
@@ -24,10 +24,14 @@ CELLS = {"tetra": np.array([[0, 1, 2, 3], [1, 2, 3, 4]]), "triangle": np.array([
 VTK_TYPE = {"tetra": vtk.VTK_TETRA, "triangle": vtk.VTK_TRIANGLE, "line": vtk.VTK_LINE}
 
 
-def place(reader, name):
+def seeds_of(reader):
     folder = HERE / "corpus" / reader
     folder.mkdir(parents=True, exist_ok=True)
-    return folder / name
+    return folder
+
+
+def place(reader, name):
+    return seeds_of(reader) / name
 
 
 def put(reader, name, text):
@@ -181,18 +185,9 @@ def by_gmsh():
 
 
 def save_msh(name, **options):
-    for option, value in options.items():
-        gmsh.option.setNumber(f"Mesh.{option}", value)
-    for version in (2.2, 4.1):
-        gmsh.option.setNumber("Mesh.MshFileVersion", version)
-        for binary in (0, 1):
-            gmsh.option.setNumber("Mesh.Binary", binary)
-            path = place("msh", f"gmsh_{name}_{version}_{'binary' if binary else 'ascii'}.msh")
-            gmsh.write(str(path))
+    for path in saved_by_gmsh(seeds_of("msh"), f"gmsh_{name}", **options):
         if name != "parts":
-            place("msh", f"gmsh_{name}_{version}_big.msh").write_bytes(Turned(path.read_bytes()).out)
-    for option in options:
-        gmsh.option.setNumber(f"Mesh.{option}", 0)
+            write_turned(path)
 
 
 # --- by hand

@@ -149,8 +149,8 @@ def gmsh_numbers():
     return np.reshape(points, (-1, 3))[order], *(np.asarray(s, dtype=np.int64) for s in simplices)
 
 
-def save_gmsh(directory, name, **options):
-    """As both versions, as text and binary in both byte orders."""
+def saved_by_gmsh(directory, name, **options):
+    """As both versions, as text and binary; goes through the binary ones."""
     for option, value in options.items():
         gmsh.option.setNumber(f"Mesh.{option}", value)
     for version in (2.2, 4.1):
@@ -159,14 +159,26 @@ def save_gmsh(directory, name, **options):
             gmsh.option.setNumber("Mesh.Binary", binary)
             path = directory / f"{name}_{version}_{'binary' if binary else 'ascii'}.msh"
             gmsh.write(str(path))
-        big = directory / f"{name}_{version}_big.msh"
-        big.write_bytes(Turned(path.read_bytes()).out)
+        yield path
+    for option in options:
+        gmsh.option.setNumber(f"Mesh.{option}", 0)
+
+
+def write_turned(path):
+    """The same in the opposite byte order; returns the path."""
+    big = path.with_name(path.name.replace("_binary.msh", "_big.msh"))
+    big.write_bytes(Turned(path.read_bytes()).out)
+    return big
+
+
+def save_gmsh(directory, name, **options):
+    """As both versions, as text and binary in both byte orders."""
+    for path in saved_by_gmsh(directory, name, **options):
+        big = write_turned(path)
         counts = count_by_gmsh(path)
         assert counts[0] > 0
         # Gmsh 4.8 stumbles over partitioned entities in the opposite byte order
         assert b"$PartitionedEntities" in big.read_bytes() or count_by_gmsh(big) == counts
-    for option in options:
-        gmsh.option.setNumber(f"Mesh.{option}", 0)
 
 
 def count_by_gmsh(path):
