@@ -1,12 +1,6 @@
 # TetGen ships no CMake package. Defines TetGen::tet.
-find_path(TetGen_INCLUDE_DIR tetgen.h)
-find_library(TetGen_LIBRARY tet)
-include(FindPackageHandleStandardArgs)
-find_package_handle_standard_args(TetGen REQUIRED_VARS TetGen_LIBRARY TetGen_INCLUDE_DIR)
-if(TetGen_FOUND AND NOT TARGET TetGen::tet)
-    add_library(TetGen::tet UNKNOWN IMPORTED)
-    set_target_properties(TetGen::tet PROPERTIES
-        IMPORTED_LOCATION ${TetGen_LIBRARY}
-        INTERFACE_INCLUDE_DIRECTORIES ${TetGen_INCLUDE_DIR}
-        INTERFACE_COMPILE_DEFINITIONS TETLIBRARY)
+include(${CMAKE_CURRENT_LIST_DIR}/SlabhullFindLibrary.cmake)
+slabhull_find_library(TetGen TetGen::tet HEADER tetgen.h NAMES tet)
+if(TetGen_FOUND)
+    set_target_properties(TetGen::tet PROPERTIES INTERFACE_COMPILE_DEFINITIONS TETLIBRARY)
 endif()

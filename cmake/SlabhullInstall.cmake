@@ -9,6 +9,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/SlabhullConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/SlabhullConfigVersion.cmake
     COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/SlabhullConfig.cmake ${PROJECT_BINARY_DIR}/SlabhullConfigVersion.cmake
+    ${CMAKE_CURRENT_LIST_DIR}/SlabhullFindLibrary.cmake
     ${CMAKE_CURRENT_LIST_DIR}/FindLZ4.cmake ${CMAKE_CURRENT_LIST_DIR}/FindTetGen.cmake
     ${CMAKE_CURRENT_LIST_DIR}/FindOCCT.cmake ${CMAKE_CURRENT_LIST_DIR}/FindHDF5C.cmake
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Slabhull)

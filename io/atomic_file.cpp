@@ -149,12 +149,13 @@ AtomicFile& AtomicFiles::open(const std::filesystem::path& path) {
     return *files_.back();
 }
 
+void AtomicFiles::finish() {
+    std::for_each(files_.begin(), files_.end(), [](const auto& file) { file->finish(); });
+}
+
 void AtomicFiles::commit() {
-    const auto each = [this](void (AtomicFile::*step)()) {
-        std::for_each(files_.begin(), files_.end(), [step](const auto& file) { ((*file).*step)(); });
-    };
-    each(&AtomicFile::finish);
-    each(&AtomicFile::commit);
+    finish();
+    std::for_each(files_.begin(), files_.end(), [](const auto& file) { file->commit(); });
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -126,7 +126,8 @@ constexpr Holds stl_holds{
     .least_dimension = 2, .most_dimension = 2, .doubles = false, .shared_points = false};
 
 const std::vector<std::string_view> no_mark;
-const Offers msh_offers{.encodings = {"binary", "ascii"}, .versions = {"4.1", "2.2"}, .pieces = true};
+const Offers msh_offers{
+    .encodings = {"binary", "ascii"}, .versions = {"4.1", "2.2"}, .pieces = true, .plain_pieces = true};
 const Offers vtu_offers{.encodings = {"raw", "zlib", "lz4", "ascii"}};
 const Offers pvtu_offers{.encodings = vtu_offers.encodings, .pieces = true};
 const Offers medit_offers{.four_dimensional = true};
@@ -340,6 +341,15 @@ void require_offered(const Format& format, const WriteOptions& options, const st
     if (options.pieces > 0 && !format.offers.pieces) {
         throw UsageError{
             fmt::format("{}pieces: {} is not written in pieces; .pvtu and MSH are", prefix, format.title)};
+    }
+    const auto is_default = [](const std::string& wanted, const std::vector<std::string_view>& offered) {
+        return wanted.empty() || wanted == offered.front();
+    };
+    const Offers& offers = format.offers;
+    if (options.pieces > 0 && offers.plain_pieces &&
+        !(is_default(options.encoding, offers.encodings) && is_default(options.version, offers.versions))) {
+        throw UsageError{fmt::format("{}pieces: {} in pieces is version {}, {}", prefix, format.title,
+                                     offers.versions.front(), offers.encodings.front())};
     }
     if (options.four_dimensional && !format.offers.four_dimensional) {
         throw UsageError{fmt::format("{}four-dimensional: {} has no such dialect; Medit (.mesh) has one",

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "msh_parts.h"
 
+#include "cell_groups.h"
+#include "column_stream.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 namespace slabhull::io {
 
@@ -54,16 +58,27 @@ void require_msh_rows(const MeshColumns& mesh) {
     require_rows("ElementData", mesh.cell_data);
 }
 
+MshEntities::MshEntities(const std::vector<MeshColumns::Group>& groups) {
+    for (const MeshColumns::Group& group : groups) {
+        if (numbers_.emplace(group.number, groups_.size() + 1).second) {
+            groups_.push_back(group.number);
+        }
+    }
+}
+
 std::vector<MshPart> msh_parts(const MeshColumns& mesh) {
     std::vector<MshPart> parts;
-    parts.emplace_back(mesh.dimension, mesh.cells, mesh.groups);
-    for (const MeshColumns::Part& part : mesh.lower) {
-        parts.emplace_back(part.dimension, part.cells, part.groups);
-    }
     std::size_t elements = 0;
-    for (MshPart& part : parts) {
-        part.tags_before = elements;
-        elements += part.cells.rows();
+    const auto add = [&](int dimension, const Column<std::int64_t>& cells,
+                         const std::vector<MeshColumns::Group>& given) {
+        auto groups = checked_groups(cells, given, "write_msh");
+        auto entities = std::make_shared<const MshEntities>(groups);
+        parts.push_back({dimension, cells, std::move(groups), std::move(entities), {elements, nullptr}});
+        elements += cells.rows();
+    };
+    add(mesh.dimension, mesh.cells, mesh.groups);
+    for (const MeshColumns::Part& part : mesh.lower) {
+        add(part.dimension, part.cells, part.groups);
     }
     return parts;
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cell_groups.h"
-#include "column_stream.h"
+#include "point_set.h"
 #include "slabhull/core/point.h"
 #include "slabhull/io/atomic_file.h"
+#include "slabhull/io/files.h"
 #include "slabhull/io/soup.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <string>
+#include <memory>
+#include <unordered_map>
 #include <vector>
 
 namespace slabhull::io {
@@ -21,52 +21,60 @@ struct Box {
 
 Box box_of(const Column<double>& points);
 
-/// The cells of one dimension.
-struct MshPart {
-    using Group = MeshColumns::Group;
+/// The discrete entities of one dimension: one for each number that groups have, in the order in which they
+/// are first met.
+class MshEntities {
+public:
+    explicit MshEntities(const std::vector<MeshColumns::Group>& groups);
 
+    std::size_t size() const { return groups_.size(); }
+    /// The number of the physical group of entity `i`, from 0.
+    PatchNumber group(std::size_t i) const { return groups_[i]; }
+    /// The entity of groups of that number, from 1.
+    std::size_t of(PatchNumber group) const { return numbers_.at(group); }
+
+private:
+    std::vector<PatchNumber> groups_;
+    std::unordered_map<PatchNumber, std::size_t> numbers_;
+};
+
+/// The tags of the rows of a list: numbers in order or, of a part of the list, those that its members have in
+/// the whole.
+struct MshTags {
+    std::size_t before = 0;            ///< used before the whole list's
+    const PointSet* members = nullptr; ///< nullptr: all
+
+    std::size_t operator()(std::size_t row) const {
+        return before + (members != nullptr ? members->member(row) : row) + 1;
+    }
+};
+
+/// The simplices of one dimension.
+struct MshPart {
     int dimension;
     const Column<std::int64_t>& cells;
-    std::vector<Group> groups;
-    std::vector<PatchNumber> entities; ///< the number of each one's physical group; groups may share one
-    std::size_t tags_before = 0;       ///< element tags used before this part's
-
-    MshPart(int its_dimension, const Column<std::int64_t>& its_cells, const std::vector<Group>& given)
-        : dimension{its_dimension}, cells{its_cells}, groups{checked_groups(its_cells, given, "write_msh")} {
-        for (const Group& group : groups) {
-            if (std::find(entities.begin(), entities.end(), group.number) == entities.end()) {
-                entities.push_back(group.number);
-            }
-        }
-    }
-
-    std::size_t entity_of(const Group& group) const {
-        const auto place = std::find(entities.begin(), entities.end(), group.number);
-        return 1 + static_cast<std::size_t>(place - entities.begin());
-    }
+    std::vector<MeshColumns::Group> groups;
+    std::shared_ptr<const MshEntities> entities; ///< of the whole mesh
+    MshTags tags;
 };
 
 /// The cells first, so that their tags are their numbers from 1; then those of lower dimensions.
 std::vector<MshPart> msh_parts(const MeshColumns& mesh);
 
-/// What comes before the nodes in a binary file: the format, the groups' names and the entities, in
-/// that box.
-void write_msh_head(AtomicFile& file, const MeshColumns& mesh, const Box& box);
+/// What is in one MSH file: a mesh, or a piece of one.
+struct MshContent {
+    const MeshColumns& mesh;           ///< the points and the data
+    std::vector<MshPart> parts;        ///< the simplices: those of the mesh and lower ones, none without rows
+    MshTags nodes;                     ///< of the points
+    const std::vector<MshPart>& model; ///< the simplices of the whole mesh
+    Box box;                           ///< of the whole mesh
+    std::size_t pieces = 0;            ///< that the mesh is in; 0: not cut
+    std::size_t piece = 0;             ///< which one, from 0
+};
+
+void write_msh(AtomicFile& file, const MshContent& content, const MshOptions& options);
+
 /// Throws LimitError where data have more rows than MSH can count.
 void require_msh_rows(const MeshColumns& mesh);
-
-/// The arrays that MSH makes of one: use(title, first, last) for each with the components from `first` to
-/// before `last`. Gmsh knows reals of 3 or 9 components; all others go apart.
-template<class Use>
-void for_each_msh_array(const DataColumn& data, const Use& use) {
-    const int components = components_of(data);
-    if (data.type == Scalar::float64 && (components == 3 || components == 9)) {
-        use(data.name, 0, components);
-        return;
-    }
-    for (int k = 0; k < components; ++k) {
-        use(components > 1 ? data.name + "_" + std::to_string(k) : data.name, k, k + 1);
-    }
-}
 
 } // namespace slabhull::io

@@ -67,31 +67,29 @@ struct TextRow {
 template<class Row, class Tag>
 class MshWriter {
 public:
-    MshWriter(AtomicFile& file, const MeshColumns& mesh)
-        : mesh_{mesh}, parts_{msh_parts(mesh)},
-          elements_{parts_.back().tags_before + parts_.back().cells.rows()}, file_{file} {
-        require_range(mesh.points.rows(), "nodes");
+    MshWriter(AtomicFile& file, const MshContent& content)
+        : content_{content}, mesh_{content.mesh}, parts_{content.parts}, file_{file} {
+        for (const MshPart& part : parts_) {
+            elements_ += part.cells.rows();
+        }
+        require_range(mesh_.points.rows(), "nodes");
         require_range(elements_, "elements");
-        require_msh_rows(mesh);
+        require_msh_rows(mesh_);
     }
 
     void write() {
-        write_head(is_4 ? box_of(mesh_.points) : Box{}); // version 2.2 has no entities
-        section("Nodes", [this] { is_4 ? write_node_block() : write_node_list(); });
-        section("Elements", [this] { is_4 ? write_element_blocks() : write_element_list(); });
-        for (const DataColumn& data : mesh_.point_data) {
-            write_data("NodeData", data);
-        }
-        for (const DataColumn& data : mesh_.cell_data) {
-            write_data("ElementData", data);
-        }
-    }
-
-    void write_head(const Box& box) {
         write_format();
         write_physical_names();
         if constexpr (is_4) {
-            section("Entities", [&] { write_entities(box); });
+            write_all_entities();
+        }
+        section("Nodes", [this] { is_4 ? write_node_block() : write_node_list(); });
+        section("Elements", [this] { is_4 ? write_element_blocks() : write_element_list(); });
+        for (const DataColumn& data : mesh_.point_data) {
+            write_data("NodeData", data, content_.nodes);
+        }
+        for (const DataColumn& data : mesh_.cell_data) {
+            write_data("ElementData", data, parts_.front().tags);
         }
     }
 
@@ -145,7 +143,7 @@ private:
     void write_physical_names() {
         std::set<std::pair<int, PatchNumber>> named;
         std::string lines;
-        for (const MshPart& part : parts_) {
+        for (const MshPart& part : content_.model) {
             for (const Group& group : part.groups) {
                 if (group.number > 0 && !group.name.empty() &&
                     named.emplace(part.dimension, group.number).second) {
@@ -162,37 +160,63 @@ private:
     // --- entities, of version 4.1 only
 
     /// The discrete entities, numbered from 1 in each dimension, in the box of the whole mesh.
-    void write_entities(const Box& box) {
+    void write_all_entities() {
+        section("Entities", [this] {
+            write_entities([](const MshPart&, std::size_t i, Row& row) { row.value(as_int(i + 1)); });
+        });
+        if (content_.pieces > 0) {
+            section("PartitionedEntities", [this] { write_piece_entities(); });
+        }
+    }
+
+    /// What each is in this piece.
+    void write_piece_entities() {
+        row(static_cast<Tag>(content_.pieces));
+        row(Tag{0}); // no ghosts
+        write_entities([this](const MshPart& part, std::size_t i, Row& row) {
+            row.value(entity_tag(part, i + 1));
+            row.value(std::int32_t{part.dimension}); // the parent's
+            row.value(as_int(i + 1));
+            row.value(Tag{1});
+            row.value(as_int(content_.piece + 1));
+        });
+    }
+
+    /// The pieces of an entity follow the entities of the model, by piece.
+    std::int32_t entity_tag(const MshPart& part, std::size_t entity) const {
+        return as_int(entity + (content_.pieces > 0 ? part.entities->size() * (content_.piece + 1) : 0));
+    }
+
+    /// How many there are and, by ascending dimension, each; name(part, i, row) begins its row.
+    template<class Name>
+    void write_entities(const Name& name) {
         std::array<Tag, 4> counts{};
-        for (const MshPart& part : parts_) {
-            counts.at(static_cast<std::size_t>(part.dimension)) = part.entities.size();
+        for (const MshPart& part : content_.model) {
+            counts.at(static_cast<std::size_t>(part.dimension)) = part.entities->size();
         }
         row(counts[0], counts[1], counts[2], counts[3]);
-        for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) { // by ascending dimension
-            write_entities(*part, box);
+        constexpr std::size_t most_values = 14;
+        for (auto part = content_.model.rbegin(); part != content_.model.rend(); ++part) {
+            rows(part->entities->size(), most_values * Row::template longest<double>,
+                 [&](std::size_t begin, std::size_t end, Row& row) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         name(*part, i, row);
+                         write_entity(*part, i, row);
+                     }
+                 });
         }
     }
 
-    void write_entities(const MshPart& part, const Box& box) {
-        constexpr std::size_t most_values = 10;
-        rows(part.entities.size(), most_values * Row::template longest<double>,
-             [&](std::size_t begin, std::size_t end, Row& row) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                     write_entity(part, i, box, row);
-                 }
-             });
-    }
-
-    static void write_entity(const MshPart& part, std::size_t i, const Box& box, Row& row) {
-        row.value(as_int(i + 1));
+    void write_entity(const MshPart& part, std::size_t i, Row& row) const {
+        const Box& box = content_.box;
         std::for_each(box.min.begin(), box.min.end(), [&](double x) { row.value(x); });
         if (part.dimension > 0) {
             std::for_each(box.max.begin(), box.max.end(), [&](double x) { row.value(x); });
         }
-        const bool in_group = part.entities[i] > 0;
-        row.value(Tag{in_group});
-        if (in_group) {
-            row.value(part.entities[i]);
+        const PatchNumber group = part.entities->group(i);
+        row.value(Tag{group > 0});
+        if (group > 0) {
+            row.value(group);
         }
         if (part.dimension > 0) {
             row.value(Tag{0}); // no bounding entities
@@ -204,8 +228,10 @@ private:
 
     void write_node_block() {
         const auto count = static_cast<Tag>(mesh_.points.rows());
-        row(Tag{1}, count, Tag{count > 0}, count); // blocks, nodes, smallest and largest tag
-        row(std::int32_t{mesh_.dimension}, std::int32_t{1}, std::int32_t{0}, count);
+        const MshTags& tags = content_.nodes;
+        row(Tag{1}, count, count > 0 ? static_cast<Tag>(tags(0)) : 0,
+            count > 0 ? static_cast<Tag>(tags(count - 1)) : 0);
+        row(std::int32_t{mesh_.dimension}, entity_tag(parts_.front(), 1), std::int32_t{0}, count);
         write_nodes(true, false);
         write_nodes(false, true);
     }
@@ -222,7 +248,7 @@ private:
         rows(mesh_.points.rows(), longest, [&](std::size_t begin, std::size_t end, Row& row) {
             const auto put_row = [&](std::size_t node, const double* x) {
                 if (tags) {
-                    row.value(static_cast<Tag>(node + 1));
+                    row.value(static_cast<Tag>(content_.nodes(node)));
                 }
                 std::for_each(x, x + (places ? 3 : 0), [&](double value) { row.value(value); });
                 row.end();
@@ -243,13 +269,19 @@ private:
 
     void write_element_blocks() {
         std::ptrdiff_t blocks = 0;
+        std::size_t smallest = 0;
+        std::size_t largest = 0;
         for (const MshPart& part : parts_) {
             blocks += std::count_if(part.groups.begin(), part.groups.end(), filled);
+            if (const std::size_t count = part.cells.rows(); count > 0) {
+                smallest = smallest > 0 ? smallest : part.tags(0);
+                largest = part.tags(count - 1);
+            }
         }
-        const auto count = static_cast<Tag>(elements_);
-        row(static_cast<Tag>(blocks), count, Tag{count > 0}, count);
+        row(static_cast<Tag>(blocks), static_cast<Tag>(elements_), static_cast<Tag>(smallest),
+            static_cast<Tag>(largest));
         for_each_block([this](const MshPart& part, const Group& group) {
-            row(std::int32_t{part.dimension}, as_int(part.entity_of(group)),
+            row(std::int32_t{part.dimension}, entity_tag(part, part.entities->of(group.number)),
                 std::int32_t{gmsh_simplex_type(part.dimension)}, static_cast<Tag>(group.end - group.begin));
             write_block(part, group, std::array<Tag, 0>{});
         });
@@ -260,7 +292,7 @@ private:
         file_.write(fmt::format("{}\n", elements_));
         for_each_block([this](const MshPart& part, const Group& group) {
             const std::int32_t type = gmsh_simplex_type(part.dimension);
-            const std::int32_t entity = as_int(part.entity_of(group));
+            const std::int32_t entity = as_int(part.entities->of(group.number));
             if constexpr (Row::text) {
                 write_block(part, group, std::array<std::int32_t, 4>{type, 2, group.number, entity});
             } else {
@@ -285,16 +317,16 @@ private:
     template<class Same>
     void write_block(const MshPart& part, const Group& group, const Same& same) {
         const std::size_t corners = static_cast<std::size_t>(part.dimension) + 1;
-        const std::size_t tag = part.tags_before + 1;
         rows(group.end - group.begin, (1 + same.size() + corners) * Row::template longest<Tag>,
              [&](std::size_t begin, std::size_t end, Row& row) {
                  for_each_row(
                      part.cells, group.begin + begin, group.begin + end,
                      [&](std::size_t cell, const std::int64_t* vertices) {
-                         row.value(static_cast<Tag>(cell + tag));
+                         row.value(static_cast<Tag>(part.tags(cell)));
                          std::for_each(same.begin(), same.end(), [&](auto value) { row.value(value); });
-                         std::for_each(vertices, vertices + corners,
-                                       [&](std::int64_t vertex) { row.value(static_cast<Tag>(vertex + 1)); });
+                         std::for_each(vertices, vertices + corners, [&](std::int64_t vertex) {
+                             row.value(static_cast<Tag>(content_.nodes(static_cast<std::size_t>(vertex))));
+                         });
                          row.end();
                      });
              });
@@ -302,28 +334,35 @@ private:
 
     // --- data
 
-    void write_data(const char* section, const DataColumn& data) {
-        for_each_msh_array(data, [&](const std::string& title, int first, int last) {
-            write_components(section, data, title, first, last);
-        });
+    /// Gmsh knows reals of 3 or 9 components; all others go apart.
+    void write_data(const char* name, const DataColumn& data, const MshTags& tags) {
+        const int components = components_of(data);
+        if (data.type == Scalar::float64 && (components == 3 || components == 9)) {
+            write_components(name, data.name, data, 0, components, tags);
+            return;
+        }
+        for (int k = 0; k < components; ++k) {
+            write_components(name, components > 1 ? fmt::format("{}_{}", data.name, k) : data.name, data, k,
+                             k + 1, tags);
+        }
     }
 
-    /// Those from `first` to before `last`, under one name.
-    void write_components(const char* name, const DataColumn& data, const std::string& title, int first,
-                          int last) {
+    /// Those from `first` to before `last`, under one title.
+    void write_components(const char* name, const std::string& title, const DataColumn& data, int first,
+                          int last, const MshTags& tags) {
         section(name, [&] {
             file_.write(fmt::format("1\n\"{}\"\n1\n0\n3\n0\n{}\n{}\n", title, last - first, rows_of(data)));
-            std::visit([&](const auto& column) { write_values(column, first, last); }, data.values);
+            std::visit([&](const auto& column) { write_values(column, first, last, tags); }, data.values);
         });
     }
 
     template<class T>
-    void write_values(const Column<T>& column, int first, int last) {
+    void write_values(const Column<T>& column, int first, int last, const MshTags& tags) {
         const std::size_t longest = Row::template longest<std::int32_t> +
                                     static_cast<std::size_t>(last - first) * Row::template longest<double>;
         rows(column.rows(), longest, [&](std::size_t begin, std::size_t end, Row& row) {
             for_each_row(column, begin, end, [&](std::size_t place, const T* values) {
-                row.value(as_int(place + 1));
+                row.value(as_int(tags(place)));
                 std::for_each(values + first, values + last,
                               [&](T value) { row.value(static_cast<double>(value)); });
                 row.end();
@@ -331,27 +370,30 @@ private:
         });
     }
 
+    const MshContent& content_;
     const MeshColumns& mesh_;
-    std::vector<MshPart> parts_; ///< the cells first, so that their tags are their numbers from 1
-    std::size_t elements_;
+    const std::vector<MshPart>& parts_;
+    std::size_t elements_ = 0;
     AtomicFile& file_;
 };
 
 } // namespace
 
-void write_msh_head(AtomicFile& file, const MeshColumns& mesh, const Box& box) {
-    MshWriter<BinaryRow, std::uint64_t>{file, mesh}.write_head(box);
+void write_msh(AtomicFile& file, const MshContent& content, const MshOptions& options) {
+    const bool is_4 = options.version == MshVersion::v4_1;
+    if (options.ascii) {
+        is_4 ? MshWriter<TextRow, std::uint64_t>{file, content}.write()
+             : MshWriter<TextRow, std::int32_t>{file, content}.write();
+    } else {
+        is_4 ? MshWriter<BinaryRow, std::uint64_t>{file, content}.write()
+             : MshWriter<BinaryRow, std::int32_t>{file, content}.write();
+    }
 }
 
 void write_msh(AtomicFile& file, const MeshColumns& mesh, const MshOptions& options) {
-    const bool is_4 = options.version == MshVersion::v4_1;
-    if (options.ascii) {
-        is_4 ? MshWriter<TextRow, std::uint64_t>{file, mesh}.write()
-             : MshWriter<TextRow, std::int32_t>{file, mesh}.write();
-    } else {
-        is_4 ? MshWriter<BinaryRow, std::uint64_t>{file, mesh}.write()
-             : MshWriter<BinaryRow, std::int32_t>{file, mesh}.write();
-    }
+    const std::vector<MshPart> parts = msh_parts(mesh);
+    const bool in_box = options.version == MshVersion::v4_1; // version 2.2 has no entities
+    write_msh(file, {mesh, parts, {}, parts, in_box ? box_of(mesh.points) : Box{}}, options);
 }
 
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh, const MshOptions& options) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <unordered_map>
 
 namespace slabhull::io {
 
@@ -23,20 +24,18 @@ Column<std::int64_t> cells_of(const SimplexBlock& block, int dimension) {
     return Column<std::int64_t>::over(std::span<const Index>{block.vertices}, dimension + 1);
 }
 
-std::string name_of(const PatchList& groups, PatchNumber number) {
-    const auto found = std::find_if(groups.begin(), groups.end(),
-                                    [=](const Patch& group) { return group.number == number; });
-    return found == groups.end() ? "" : found->name;
-}
-
 /// Runs of cells of one group, then the groups without cells.
 std::vector<Group> groups_of(const SimplexBlock& block, const PatchList& list) {
     std::vector<Group> groups;
     std::set<PatchNumber> used;
+    std::unordered_map<PatchNumber, std::string> names;
+    for (const Patch& each : list) {
+        names.emplace(each.number, each.name);
+    }
     for (std::size_t cell = 0; cell < block.physical.size(); ++cell) {
         const PatchNumber number = block.physical[cell];
         if (groups.empty() || groups.back().number != number) {
-            groups.push_back({cell, cell, number, name_of(list, number)});
+            groups.push_back({cell, cell, number, names[number]});
             used.insert(number);
         }
         groups.back().end = cell + 1;

@@ -8,6 +8,7 @@
 #include "motion_keys.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,6 +19,8 @@ namespace slabhull {
 namespace {
 
 constexpr int most_layers = 1'000'000;
+constexpr int most_pieces = 1'000'000;
+constexpr std::array<const char*, 3> hull_formats{"vtu", "pvtu", "msh"};
 
 /// Turns the tables of a case file into a Case. Each method reads one table.
 class CaseReader {
@@ -286,17 +289,42 @@ private:
         const auto directory = table.optional_text("directory");
         case_.directory = directory_ / directory.value_or(case_.directory.string());
         if (table.has("formats")) {
-            case_.formats = table.texts("formats", -1);
-            for (const std::string& format : case_.formats) {
-                if (format != "vtu" && format != "msh") {
-                    table.fail("formats", fmt::format("\"vtu\" and \"msh\", not \"{}\"", format));
-                }
-            }
+            case_.formats = read_formats(table);
         }
-        for (const char* format : {"vtu", "msh"}) {
+        for (const char* format : hull_formats) {
             read_writing(table.optional_table(format), format);
         }
+        if (table.has("pieces")) {
+            read_pieces(table);
+        }
         table.require_all_known();
+    }
+
+    static std::vector<std::string> read_formats(KeyTable& table) {
+        std::vector<std::string> formats;
+        for (const std::string& format : table.texts("formats", -1)) {
+            if (std::find(hull_formats.begin(), hull_formats.end(), format) == hull_formats.end()) {
+                table.fail("formats",
+                           fmt::format("\"{}\", not \"{}\"", fmt::join(hull_formats, "\", \""), format));
+            }
+            if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
+                formats.push_back(format);
+            }
+        }
+        return formats;
+    }
+
+    /// Every format, as it is to be written, must have pieces.
+    void read_pieces(KeyTable& table) {
+        const auto pieces = static_cast<std::size_t>(table.integer("pieces", 1, most_pieces));
+        for (const std::string& format : case_.formats) {
+            case_.writing[format].pieces = pieces;
+            try {
+                io::require_offered(*io::format_named(format), case_.writing[format], "");
+            } catch (const UsageError& error) {
+                table.fail("pieces", fmt::format("formats that have them ({})", error.what()));
+            }
+        }
     }
 
     /// How files of a format are written: [output.msh] version = "2.2".

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <mutex>
+#include <unordered_map>
 
 namespace slabhull {
 
@@ -149,7 +150,7 @@ MeshColumns mesh_columns(const Hull<D>& hull) {
 }
 
 template<int D>
-void write_hull_vtu(io::AtomicFile& file, const Hull<D>& hull, const io::WriteOptions& options) {
+MeshColumns vtu_columns(const Hull<D>& hull) {
     MeshColumns mesh = mesh_columns(hull);
     const std::size_t cells = hull.cells.size();
     mesh.point_data = {{"t", Scalar::float64, times_of(hull)},
@@ -168,15 +169,17 @@ void write_hull_vtu(io::AtomicFile& file, const Hull<D>& hull, const io::WriteOp
                        {"time", 1, Array<double>{hull.time[0], hull.time[1]}},
                        number_field("dimension", {D})};
     add_patch_fields(mesh, hull.patches);
-    io::write_vtu(file, mesh, io::vtu_encoding(options));
+    return mesh;
 }
 
 /// Runs of cells of one region or patch, in cell order.
 template<int D>
 std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
     PatchNumber largest = 0;
+    std::unordered_map<PatchNumber, std::string> names; // patches, and then runs, may be very many
     for (const Patch& patch : hull.patches) {
         largest = std::max(largest, patch.number);
+        names.emplace(patch.number, patch_name({patch}, patch.number));
     }
     std::vector<MeshColumns::Group> groups{{0, hull.initial_cells, largest + 1, "initial"}};
     for (std::size_t layer = 0; layer < hull.layers; ++layer) {
@@ -187,8 +190,9 @@ std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
             if (groups.back().number == number) {
                 groups.back().end = begin + hull.cells_per_prism;
             } else {
-                groups.push_back(
-                    {begin, begin + hull.cells_per_prism, number, patch_name(hull.patches, number)});
+                const auto name = names.find(number);
+                groups.push_back({begin, begin + hull.cells_per_prism, number,
+                                  name != names.end() ? name->second : patch_name({}, number)});
             }
         }
     }
@@ -197,7 +201,7 @@ std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
 }
 
 template<int D>
-void write_hull_msh(io::AtomicFile& file, const Hull<D>& hull, const io::WriteOptions& options) {
+MeshColumns msh_columns(const Hull<D>& hull) {
     MeshColumns mesh = mesh_columns(hull);
     mesh.groups = groups_of(hull);
     if constexpr (D == 3) {
@@ -208,7 +212,7 @@ void write_hull_msh(io::AtomicFile& file, const Hull<D>& hull, const io::WriteOp
     // Element tags count from 1.
     mesh.cell_data = {
         {"neighbor", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors}, 1)}};
-    io::write_msh(file, mesh, io::msh_options(options));
+    return mesh;
 }
 
 std::size_t row_count(const DataArray& array) {
@@ -335,13 +339,10 @@ Column<std::int64_t> optional_column(const Array<std::int64_t>& values, int comp
 } // namespace
 
 template<int D>
-void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& format,
-                const io::WriteOptions& options) {
-    if (format == "msh") {
-        write_hull_msh(file, hull, options);
-    } else {
-        write_hull_vtu(file, hull, options);
-    }
+void write_hull(io::AtomicFiles& files, const std::filesystem::path& path, const Hull<D>& hull,
+                const std::string& format, const io::WriteOptions& options) {
+    const MeshColumns mesh = format == "msh" ? msh_columns(hull) : vtu_columns(hull);
+    io::format_named(format)->write(files, path, mesh, options);
 }
 
 template<int D>
@@ -483,8 +484,10 @@ MeshArrays<D> mesh_of_soup(const io::Soup& soup) {
     return mesh;
 }
 
-template void write_hull<2>(io::AtomicFile&, const Hull<2>&, const std::string&, const io::WriteOptions&);
-template void write_hull<3>(io::AtomicFile&, const Hull<3>&, const std::string&, const io::WriteOptions&);
+template void write_hull<2>(io::AtomicFiles&, const std::filesystem::path&, const Hull<2>&,
+                            const std::string&, const io::WriteOptions&);
+template void write_hull<3>(io::AtomicFiles&, const std::filesystem::path&, const Hull<3>&,
+                            const std::string&, const io::WriteOptions&);
 template void write_cap<2>(io::AtomicFile&, const SpatialMesh<2>&, double);
 template void write_cap<3>(io::AtomicFile&, const SpatialMesh<3>&, double);
 template void write_terminating_cap<2>(io::AtomicFile&, const Hull<2>&);

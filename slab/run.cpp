@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <future>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -90,14 +89,9 @@ Json settings_as_json(const Case& the_case) {
 
 /// The files of a slab while they are being written. Without commit they vanish.
 struct SlabFiles {
-    std::vector<std::filesystem::path> paths;
-    std::vector<std::unique_ptr<io::AtomicFile>> open;
+    io::AtomicFiles open;
+    std::uint32_t cap_checksum = 0;
     std::future<void> written; ///< last, to be waited for before the files go
-
-    void add(const std::filesystem::path& path) {
-        open.push_back(std::make_unique<io::AtomicFile>(path));
-        paths.push_back(path);
-    }
 };
 
 /// Names of the files beside the slabs.
@@ -200,7 +194,8 @@ private:
         if (!journal_) {
             replace_earlier_run();
         }
-        const std::uint32_t cap_checksum = commit(files);
+        files.open.commit();
+        result_.files.insert(result_.files.end(), files.open.paths().begin(), files.open.paths().end());
         result_.cells += slab.hull.cells.size();
         result_.points += slab.hull.points.size();
         ++result_.slabs;
@@ -208,8 +203,9 @@ private:
         const Json report = report_of(slab, checked, clock);
         march_->accept(std::move(slab));
         journal_->append(report.dump());
-        write_checkpoint(path_of(checkpoint_name), march_->state(),
-                         {cap_name(march_->state().slab), cap_checksum, journal_->size(), case_.checksum});
+        write_checkpoint(
+            path_of(checkpoint_name), march_->state(),
+            {cap_name(march_->state().slab), files.cap_checksum, journal_->size(), case_.checksum});
     }
 
     /// The first slab is complete and takes the place of one that an earlier run may have left. That run's
@@ -246,31 +242,21 @@ private:
     }
 
     void begin_writing(const Slab<D>& slab, SlabFiles& files) {
-        for (const std::string& format : case_.formats) {
-            files.add(path_of(slab_name(slab.hull.slab, format)));
-        }
-        files.add(path_of(cap_name(slab.hull.slab + 1)));
-        files.open.back()->keep_checksum();
         files.written = std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred,
                                    [this, &slab, &files] { write(slab, files); });
     }
 
     void write(const Slab<D>& slab, SlabFiles& files) const {
-        for (std::size_t i = 0; i < case_.formats.size(); ++i) {
-            write_hull(*files.open[i], slab.hull, case_.formats[i], case_.writing_of(case_.formats[i]));
-            files.open[i]->finish();
+        for (const std::string& format : case_.formats) {
+            write_hull(files.open, path_of(slab_name(slab.hull.slab, format)), slab.hull, format,
+                       case_.writing_of(format));
+            files.open.finish();
         }
-        write_terminating_cap(*files.open.back(), slab.hull);
-        files.open.back()->finish();
-    }
-
-    /// Returns the checksum of the cap's file.
-    std::uint32_t commit(SlabFiles& files) {
-        for (std::size_t i = 0; i < files.open.size(); ++i) {
-            files.open[i]->commit();
-            result_.files.push_back(files.paths[i]);
-        }
-        return files.open.back()->checksum();
+        io::AtomicFile& cap = files.open.open(path_of(cap_name(slab.hull.slab + 1)));
+        cap.keep_checksum();
+        write_terminating_cap(cap, slab.hull);
+        cap.finish();
+        files.cap_checksum = cap.checksum();
     }
 
     static Json report_of_initial(const SpatialMesh<D>& cap, const StageClock& clock) {
@@ -331,15 +317,20 @@ private:
     void write_series() {
         std::vector<io::SeriesEntry> slabs, caps;
         bool initial = true;
+        // ParaView opens "vtu" and "pvtu".
+        const auto shown = std::find_if(case_.formats.begin(), case_.formats.end(),
+                                        [](const auto& format) { return format.ends_with("vtu"); });
         journal_->each_line([&](const std::string& line) {
             if (!std::exchange(initial, false)) {
                 const Json slab = Json::parse(line);
                 const int number = slab["slab"];
-                slabs.push_back({slab["time"][0], slab_name(number, "vtu")});
+                if (shown != case_.formats.end()) {
+                    slabs.push_back({slab["time"][0], slab_name(number, *shown)});
+                }
                 caps.push_back({slab["time"][1], cap_name(number + 1)});
             }
         });
-        if (std::find(case_.formats.begin(), case_.formats.end(), "vtu") != case_.formats.end()) {
+        if (shown != case_.formats.end()) {
             add_series("slabs.pvd", slabs);
         }
         add_series("caps.pvd", caps);

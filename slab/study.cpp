@@ -77,9 +77,9 @@ StudyRow row_for(const Case& the_case) {
 }
 
 void write(const std::filesystem::path& path, const auto& hull) {
-    io::AtomicFile file{path};
-    write_hull(file, hull, path.extension().string().substr(1));
-    file.commit();
+    io::AtomicFiles files;
+    write_hull(files, path, hull, path.extension().string().substr(1));
+    files.commit();
 }
 
 template<int D>

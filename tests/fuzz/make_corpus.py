@@ -13,11 +13,10 @@ import gmsh
 import meshio
 import numpy as np
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "io"))
-from mesh_samples import COMPRESSORS, MODES, ORDERS, WORDS, Turned  # noqa: E402
+from mesh_samples import COMPRESSORS, MODES, ORDERS, WORDS, saved_by_gmsh, vtk_grid, write_turned  # noqa: E402
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1.25, 1, 1 / 3]])
 CELLS = {"tetra": np.array([[0, 1, 2, 3], [1, 2, 3, 4]]), "triangle": np.array([[0, 1, 2], [1, 3, 2], [0, 3, 1]]),
@@ -25,10 +24,14 @@ CELLS = {"tetra": np.array([[0, 1, 2, 3], [1, 2, 3, 4]]), "triangle": np.array([
 VTK_TYPE = {"tetra": vtk.VTK_TETRA, "triangle": vtk.VTK_TRIANGLE, "line": vtk.VTK_LINE}
 
 
-def place(reader, name):
+def seeds_of(reader):
     folder = HERE / "corpus" / reader
     folder.mkdir(parents=True, exist_ok=True)
-    return folder / name
+    return folder
+
+
+def place(reader, name):
+    return seeds_of(reader) / name
 
 
 def put(reader, name, text):
@@ -37,29 +40,11 @@ def put(reader, name, text):
 
 # --- VTK
 
-def grid(kind="tetra", data=True):
-    result = vtk.vtkUnstructuredGrid()
-    points = vtk.vtkPoints()
-    points.SetData(numpy_to_vtk(POINTS, deep=True))
-    result.SetPoints(points)
+def grid(kind="tetra"):
     cells = CELLS[kind]
-    flat = np.hstack([np.full((len(cells), 1), cells.shape[1]), cells]).astype(np.int64).ravel()
-    array = vtk.vtkCellArray()
-    array.SetCells(len(cells), numpy_to_vtkIdTypeArray(flat, deep=True))
-    result.SetCells(VTK_TYPE[kind], array)
-    if data:
-        for owner, name, values in ((result.GetPointData(), "t", np.linspace(0, 1, 5)),
-                                    (result.GetPointData(), "id", np.arange(5, dtype=np.int64)),
-                                    (result.GetCellData(), "pair", np.arange(2 * len(cells), dtype=np.int8).reshape(-1, 2))):
-            column = numpy_to_vtk(values, deep=True)
-            column.SetName(name)
-            owner.AddArray(column)
-        names = vtk.vtkStringArray()
-        names.SetName("names")
-        for name in ("in let", "", "walls"):
-            names.InsertNextValue(name)
-        result.GetFieldData().AddArray(names)
-    return result
+    return vtk_grid(VTK_TYPE[kind], POINTS, cells,
+                    {"t": np.linspace(0, 1, 5), "id": np.arange(5, dtype=np.int64)},
+                    {"pair": np.arange(2 * len(cells), dtype=np.int8).reshape(-1, 2)})
 
 
 def vtu_by_vtk():
@@ -103,7 +88,7 @@ def legacy_by_vtk():
         writer.SetFileType(vtk.VTK_BINARY if binary else vtk.VTK_ASCII)
         assert writer.Write() == 1
         surface = vtk.vtkPolyData()
-        triangles = grid("triangle", data=False)
+        triangles = grid("triangle")
         surface.SetPoints(triangles.GetPoints())
         surface.SetPolys(triangles.GetCells())
         writer = vtk.vtkPolyDataWriter()
@@ -200,18 +185,9 @@ def by_gmsh():
 
 
 def save_msh(name, **options):
-    for option, value in options.items():
-        gmsh.option.setNumber(f"Mesh.{option}", value)
-    for version in (2.2, 4.1):
-        gmsh.option.setNumber("Mesh.MshFileVersion", version)
-        for binary in (0, 1):
-            gmsh.option.setNumber("Mesh.Binary", binary)
-            path = place("msh", f"gmsh_{name}_{version}_{'binary' if binary else 'ascii'}.msh")
-            gmsh.write(str(path))
+    for path in saved_by_gmsh(seeds_of("msh"), f"gmsh_{name}", **options):
         if name != "parts":
-            place("msh", f"gmsh_{name}_{version}_big.msh").write_bytes(Turned(path.read_bytes()).out)
-    for option in options:
-        gmsh.option.setNumber(f"Mesh.{option}", 0)
+            write_turned(path)
 
 
 # --- by hand

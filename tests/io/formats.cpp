@@ -292,6 +292,15 @@ TEST_CASE("A way in which a format is not written is refused by the option's nam
     CHECK(refusal("off", way("ascii")) == "--encoding: OFF is written in one way only");
     CHECK_THAT(refusal("vtu", way("", "2.2")), Catch::Contains("--version"));
     CHECK_THAT(refusal("vtu", way("", "", true)), Catch::Contains("Medit"));
+    const auto in_pieces = [](io::WriteOptions options) {
+        options.pieces = 2;
+        return options;
+    };
+    CHECK(refusal("msh", in_pieces(way("binary", "4.1"))).empty());
+    CHECK(refusal("pvtu", in_pieces(way("zlib"))).empty());
+    CHECK(refusal("msh", in_pieces(way("ascii"))) == "--pieces: MSH in pieces is version 4.1, binary");
+    CHECK(refusal("msh", in_pieces(way("", "2.2"))) == "--pieces: MSH in pieces is version 4.1, binary");
+    CHECK(refusal("vtu", in_pieces(way(""))) == "--pieces: VTU is not written in pieces; .pvtu and MSH are");
 }
 
 TEST_CASE("Without a telling extension, a file's first bytes tell its format", "[io]") {

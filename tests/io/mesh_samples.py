@@ -44,25 +44,30 @@ class Mesh:
             values.astype(np.float64 if real else np.int64).tofile(directory / f"{name}.{'f64' if real else 'i64'}")
 
     def vtk_grid(self):
-        grid = vtk.vtkUnstructuredGrid()
-        points = vtk.vtkPoints()
-        points.SetData(numpy_to_vtk(self.points, deep=True))
-        grid.SetPoints(points)
-        flat = np.hstack([np.full((CELLS, 1), 4), self.cells]).astype(np.int64).ravel()
-        cells = vtk.vtkCellArray()
-        cells.SetCells(CELLS, numpy_to_vtkIdTypeArray(flat, deep=True))
-        grid.SetCells(vtk.VTK_TETRA, cells)
-        for data, attributes in ((self.point_data, grid.GetPointData()), (self.cell_data, grid.GetCellData())):
-            for name, values in data.items():
-                array = numpy_to_vtk(values, deep=True)
-                array.SetName(name)
-                attributes.AddArray(array)
-        names = vtk.vtkStringArray()
-        names.SetName("names")
-        for name in ("in let", "", "walls"):
-            names.InsertNextValue(name)
-        grid.GetFieldData().AddArray(names)
-        return grid
+        return vtk_grid(vtk.VTK_TETRA, self.points, self.cells, self.point_data, self.cell_data)
+
+
+def vtk_grid(cell_type, points, cells, point_data, cell_data):
+    """With an array of strings over the whole grid, too."""
+    grid = vtk.vtkUnstructuredGrid()
+    places = vtk.vtkPoints()
+    places.SetData(numpy_to_vtk(points, deep=True))
+    grid.SetPoints(places)
+    flat = np.hstack([np.full((len(cells), 1), cells.shape[1]), cells]).astype(np.int64).ravel()
+    array = vtk.vtkCellArray()
+    array.SetCells(len(cells), numpy_to_vtkIdTypeArray(flat, deep=True))
+    grid.SetCells(cell_type, array)
+    for data, attributes in ((point_data, grid.GetPointData()), (cell_data, grid.GetCellData())):
+        for name, values in data.items():
+            column = numpy_to_vtk(values, deep=True)
+            column.SetName(name)
+            attributes.AddArray(column)
+    names = vtk.vtkStringArray()
+    names.SetName("names")
+    for name in ("in let", "", "walls"):
+        names.InsertNextValue(name)
+    grid.GetFieldData().AddArray(names)
+    return grid
 
 
 MODES = {
@@ -144,8 +149,8 @@ def gmsh_numbers():
     return np.reshape(points, (-1, 3))[order], *(np.asarray(s, dtype=np.int64) for s in simplices)
 
 
-def save_gmsh(directory, name, **options):
-    """As both versions, as text and binary in both byte orders."""
+def saved_by_gmsh(directory, name, **options):
+    """As both versions, as text and binary; goes through the binary ones."""
     for option, value in options.items():
         gmsh.option.setNumber(f"Mesh.{option}", value)
     for version in (2.2, 4.1):
@@ -154,14 +159,26 @@ def save_gmsh(directory, name, **options):
             gmsh.option.setNumber("Mesh.Binary", binary)
             path = directory / f"{name}_{version}_{'binary' if binary else 'ascii'}.msh"
             gmsh.write(str(path))
-        big = directory / f"{name}_{version}_big.msh"
-        big.write_bytes(Turned(path.read_bytes()).out)
+        yield path
+    for option in options:
+        gmsh.option.setNumber(f"Mesh.{option}", 0)
+
+
+def write_turned(path):
+    """The same in the opposite byte order; returns the path."""
+    big = path.with_name(path.name.replace("_binary.msh", "_big.msh"))
+    big.write_bytes(Turned(path.read_bytes()).out)
+    return big
+
+
+def save_gmsh(directory, name, **options):
+    """As both versions, as text and binary in both byte orders."""
+    for path in saved_by_gmsh(directory, name, **options):
+        big = write_turned(path)
         counts = count_by_gmsh(path)
         assert counts[0] > 0
         # Gmsh 4.8 stumbles over partitioned entities in the opposite byte order
         assert b"$PartitionedEntities" in big.read_bytes() or count_by_gmsh(big) == counts
-    for option in options:
-        gmsh.option.setNumber(f"Mesh.{option}", 0)
 
 
 def count_by_gmsh(path):

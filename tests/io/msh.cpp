@@ -227,6 +227,49 @@ TEST_CASE("A mesh without groups is one block without a name", "[io]") {
     CHECK(folder.file_count() == 1);
 }
 
+TEST_CASE("Each of thousands of groups comes back with its cells and its name, from one file and from pieces",
+          "[io]") {
+    const specimens::Grid grid{2, 32};
+    io::MeshColumns mesh = grid.columns();
+    mesh.groups.clear();
+    for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
+        const auto number = static_cast<PatchNumber>(cell * 37 % 2000 + 1); // some twice, far apart
+        mesh.groups.push_back({cell, cell + 1, number, fmt::format("group {}", number)});
+    }
+    const auto cells_of = [&](const std::filesystem::path& path) {
+        const io::Soup soup = io::read_msh(path);
+        const io::SimplexBlock& triangles = soup.simplices[2];
+        std::set<std::pair<PatchNumber, std::int32_t>> entities;
+        for (std::size_t i = 0; i < triangles.size(2); ++i) {
+            const auto& group = mesh.groups.at(static_cast<std::size_t>(triangles.tag(i) - 1));
+            REQUIRE(triangles.physical[i] == group.number);
+            REQUIRE(patch_name(soup.groups[2], group.number) == group.name);
+            entities.emplace(group.number, triangles.entity[i]);
+        }
+        const auto numbers =
+            std::set<PatchNumber>(triangles.physical.begin(), triangles.physical.end()).size();
+        CHECK(soup.groups[2].size() == 2000);
+        CHECK(entities.size() == numbers); // one entity for each number ...
+        CHECK(std::set<std::int32_t>(triangles.entity.begin(), triangles.entity.end()).size() ==
+              numbers); // ... of its own
+        return triangles.size(2);
+    };
+    const scratch::Folder folder;
+    for (const io::MshOptions& options :
+         {io::MshOptions{}, io::MshOptions{.ascii = true}, io::MshOptions{.version = io::MshVersion::v2_2}}) {
+        io::write_msh(folder / "whole.msh", mesh, options);
+        CHECK(cells_of(folder / "whole.msh") == grid.cell_count());
+    }
+    io::AtomicFiles files;
+    io::write_msh_pieces(files, folder / "piece.msh", mesh, 3);
+    files.commit();
+    std::size_t cells = 0;
+    for (const auto& path : files.paths()) {
+        cells += cells_of(path);
+    }
+    CHECK(cells == grid.cell_count());
+}
+
 TEST_CASE("The bytes of an MSH file do not depend on the number of threads", "[io]") {
     const scratch::Folder folder;
     const specimens::Grid grid{3, 30};

@@ -26,9 +26,9 @@ io::Soup hull_soup(const std::string& format = "vtu") {
     const Hull<D> hull = specimens::HullMaker<D>{specimens::box_with_body<D>(), 2}.hull;
     const scratch::Folder folder;
     const auto path = folder / ("hull." + format);
-    io::AtomicFile file{path};
-    write_hull(file, hull, format);
-    file.commit();
+    io::AtomicFiles files;
+    write_hull(files, path, hull, format);
+    files.commit();
     io::Soup soup = io::read_mesh(path);
     settle_numbers(soup);
     return soup;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`slabhull convert --pieces`: what independent readers see of the pieces, what comes back, what is refused."""
+"""`slabhull convert --pieces`, and hulls that `build` writes so: what independent readers see of the pieces, what comes back, what is refused."""
 import importlib.util
 import json
 import resource
@@ -127,6 +127,7 @@ class Pvtu(PiecesTest):
     def test_wrong_numbers_of_pieces_and_formats_are_refused(self):
         self.refused(2, ["--pieces"], ROOM, self.dir / "room.pvtu", "--pieces", 0)
         self.refused(2, ["4.1"], ROOM, self.dir / "out.msh", "--pieces", 2, "--version", "2.2")
+        self.refused(2, ["--pieces", "4.1"], self.dir / "none.msh", self.dir / "out.msh", "--pieces", 2, "--encoding", "ascii")
         self.refused(2, ["10000000 pieces"], ROOM, self.dir / "room.pvtu", "--pieces", 10000000)
         self.refused(2, ["not written in pieces"], ROOM, self.dir / "room.avro", "--pieces", 2)
         self.assertEqual(list(self.dir.iterdir()), [])
@@ -210,6 +211,69 @@ class Msh(PiecesTest):
             cells += found["counts"]["tetrahedra"]
         whole = json.loads(slabhull("info", ROOM, "--json").out)
         self.assertEqual(cells, whole["counts"]["tetrahedra"])
+
+
+class Build(PiecesTest):
+    PIECES = '[output]\nformats = ["pvtu", "msh"]\npieces = 3\n'
+
+    def test_hulls_are_written_in_the_pieces_that_convert_makes(self):
+        for text in (CIRCLE, SPHERE):
+            whole, _ = self.build(self.case(text), out="whole")
+            out, _ = self.build(self.case(text + self.PIECES), out="out")
+            self.convert(whole / "slab_0000.vtu", "slab_0000.pvtu", "--pieces", 3)
+            self.convert(whole / "slab_0000.msh", "slab_0000.msh", "--pieces", 3)
+            expected = {p.name: p.read_bytes() for p in self.dir.glob("slab_0000*")}
+            self.assertEqual(len(expected), 7)
+            self.assertEqual({p.name: p.read_bytes() for p in out.glob("slab_0000*")}, expected)
+            self.assertEqual((out / "cap_0001.vtu").read_bytes(), (whole / "cap_0001.vtu").read_bytes())
+            self.assertIn('"slab_0000.pvtu"', (out / "slabs.pvd").read_text())
+            self.check(out / "slab_0000.pvtu")
+
+    def test_all_files_of_a_slab_are_told(self):
+        result = slabhull("build", self.case(CIRCLE + self.PIECES), "--out", self.dir / "out")
+        self.assertEqual(result.code, 0, result.err)
+        told = [line.strip().rsplit("/", 1)[-1] for line in result.out.splitlines()[1:]]
+        self.assertEqual(sorted(told + ["march.state", "slabs.jsonl"]),
+                         sorted(p.name for p in (self.dir / "out").iterdir()))
+        self.assertEqual(told[:4], ["slab_0000_0.vtu", "slab_0000_1.vtu", "slab_0000_2.vtu", "slab_0000.pvtu"])
+
+    def test_a_pvtu_without_a_number_of_pieces_has_one_packed_as_the_case_says(self):
+        out, _ = self.build(self.case(CIRCLE + '[output]\nformats = ["pvtu"]\n[output.pvtu]\nencoding = "zlib"\n'))
+        self.assertEqual(sorted(p.name for p in out.glob("slab*")),
+                         ["slab_0000.pvtu", "slab_0000_0.vtu", "slabs.jsonl", "slabs.pvd"])
+        self.assertIn(b"vtkZLibDataCompressor", (out / "slab_0000_0.vtu").read_bytes())
+        self.check(out / "slab_0000.pvtu")
+
+    def test_formats_and_numbers_that_make_no_pieces_are_refused_before_anything_is_built(self):
+        for output, *words in (
+                ("pieces = 2\n", "line 5", "output.pieces", "VTU is not written in pieces; .pvtu and MSH are"),
+                ('formats = ["pvtu", "vtu"]\npieces = 2\n', "output.pieces", "VTU is not written in pieces"),
+                ('formats = ["msh"]\npieces = 2\n[output.msh]\nversion = "2.2"\n', "output.pieces", "4.1, binary"),
+                ('formats = ["msh"]\npieces = 2\n[output.msh]\nencoding = "ascii"\n', "output.pieces", "4.1, binary"),
+                ('formats = ["msh"]\npieces = 0\n', "output.pieces", "from 1 to"),
+                ('formats = ["msh"]\npieces = "two"\n', "output.pieces", "a whole number")):
+            self.refused_build(2, words, output)
+            self.assertFalse((self.dir / "out").exists())
+
+    def test_a_hull_of_fewer_cells_than_pieces_leaves_no_slab(self):
+        self.refused_build(2, ["1000000 pieces"], 'formats = ["msh", "pvtu"]\npieces = 1000000\n')
+        self.assertEqual(list((self.dir / "out").iterdir()), [])
+
+    def test_a_disk_that_is_full_midway_leaves_no_piece_and_keeps_what_was_there(self):
+        case = self.case(CIRCLE + self.PIECES)
+        out, _ = self.build(case)
+        before = {p.name: p.read_bytes() for p in out.iterdir()}
+        limit = max(p.stat().st_size for p in out.glob("slab_0000*.vtu")) - 1000
+        done = subprocess.run([PROGRAM, "build", case, "--out", out], capture_output=True, text=True,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertEqual({p.name: p.read_bytes() for p in out.iterdir()}, before)
+
+    def refused_build(self, code, words, output):
+        result = slabhull("build", self.case(CIRCLE + "[output]\n" + output), "--out", self.dir / "out")
+        self.assertEqual(result.code, code, result.out + result.err)
+        for word in words:
+            self.assertIn(word, result.err)
 
 
 if __name__ == "__main__":

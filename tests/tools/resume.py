@@ -22,7 +22,7 @@ end = 1.0
 slabs = {slabs}
 layers = 1
 [output]
-formats = ["vtu"]
+formats = {formats}
 """
 TIMED = ("report.json", "slabs.jsonl", "march.state")  # tell how long it took
 
@@ -32,8 +32,8 @@ def contents(directory):
 
 
 class Interrupted(ProgramTest):
-    def reference(self, dimension, experiment, slabs):
-        case = self.case(CASE.format(dimension=dimension, experiment=experiment, slabs=slabs))
+    def reference(self, dimension, experiment, slabs, formats='["vtu"]'):
+        case = self.case(CASE.format(dimension=dimension, experiment=experiment, slabs=slabs, formats=formats))
         begin = time.monotonic()
         out, report = self.build(case, out="reference")
         self.assertEqual(len(report["slabs"]), slabs)
@@ -51,8 +51,8 @@ class Interrupted(ProgramTest):
             self.assertEqual(run.returncode, 0, error)
         return killed
 
-    def killed_runs(self, dimension, experiment, slabs, kills, seed):
-        case, expected, duration = self.reference(dimension, experiment, slabs)
+    def killed_runs(self, dimension, experiment, slabs, kills, seed, **formats):
+        case, expected, duration = self.reference(dimension, experiment, slabs, **formats)
         rng = random.Random(seed)
         out = self.dir / "out"
         done, most = 0, 0
@@ -82,6 +82,9 @@ class Interrupted(ProgramTest):
 
     def test_fifty_kills_of_a_long_march(self):
         self.killed_runs(2, "expanding-circle", 40, 50, seed=4)
+
+    def test_kills_of_a_march_with_hulls_in_pieces(self):
+        self.killed_runs(2, "expanding-circle", 10, 10, seed=6, formats='["pvtu", "msh"]\npieces = 3')
 
     def test_kills_while_tetgen_works(self):
         self.killed_runs(3, "sphere", 3, 4, seed=5)
@@ -118,7 +121,7 @@ class Interrupted(ProgramTest):
 
 class FullDisk(ProgramTest):
     def test_a_full_disk_loses_nothing_accepted(self):
-        case = self.case(CASE.format(dimension=2, experiment="circle", slabs=12))
+        case = self.case(CASE.format(dimension=2, experiment="circle", slabs=12, formats='["vtu"]'))
         expected = contents(self.build(case, out="reference")[0])
         disk = self.dir / "disk"
         disk.mkdir()

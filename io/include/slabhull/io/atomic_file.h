@@ -66,6 +66,8 @@ public:
     /// Begins a further one; the reference stays good. Throws OutputError, also for a path that is among
     /// them.
     AtomicFile& open(const std::filesystem::path& path);
+    /// Syncs all that are open so far to disk. Nothing may be written to them after it.
+    void finish();
     void commit();
     /// In the order in which they were opened.
     const std::vector<std::filesystem::path>& paths() const { return paths_; }

@@ -52,7 +52,8 @@ struct Offers {
     std::vector<std::string_view> encodings{};
     std::vector<std::string_view> versions{};
     bool four_dimensional = false; ///< a dialect for points of space-time
-    bool pieces = false;           ///< several files, for readers that work in parallel
+    bool pieces = false;           ///< several files, for readers that work in parallel ...
+    bool plain_pieces = false;     ///< ... only in the default encoding and version
 };
 
 /// A file format: how it is called, read and written.

@@ -17,11 +17,12 @@
 
 namespace slabhull {
 
-/// Writes a hull in `format`, "vtu" or "msh", with the arrays of docs/formats.md. Streams: no second copy is
-/// made. The file is the caller's to commit. Throws OutputError.
+/// Writes a hull in `format`, "vtu", "pvtu" or "msh", with the arrays of docs/formats.md. Streams: no second
+/// copy is made. The files, several where options.pieces are, are the caller's to commit. Throws OutputError,
+/// and UsageError for more pieces than the hull has cells.
 template<int D>
-void write_hull(io::AtomicFile& file, const Hull<D>& hull, const std::string& format,
-                const io::WriteOptions& options = {});
+void write_hull(io::AtomicFiles& files, const std::filesystem::path& path, const Hull<D>& hull,
+                const std::string& format, const io::WriteOptions& options = {});
 
 /// Writes a cap as a spatial mesh with ids and tracks, as VTU.
 template<int D>
