@@ -3,6 +3,7 @@
 
 #include "check_shape.h"
 #include "hull_view.h"
+#include "neighbor_column.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/topology/homology.h"
 
@@ -219,14 +220,7 @@ HullColumns<D> columns_of(const Hull<D>& hull) {
     columns.region = by_cell([&hull](std::size_t c) { return static_cast<std::int64_t>(hull.region(c)); });
     columns.patch = by_cell([&hull](std::size_t c) { return std::int64_t{hull.patch(c)}; });
     columns.layer = by_cell([&hull](std::size_t c) { return std::int64_t{hull.layer(c)}; });
-    columns.neighbors = Column<std::int64_t>{
-        hull.neighbors.size(), D + 1, [&hull](std::size_t begin, std::size_t end, std::int64_t* out) {
-            for (std::size_t c = begin; c < end; ++c) {
-                for (const Index neighbor : hull.neighbors[c]) {
-                    *out++ = neighbor == no_index ? -1 : std::int64_t{neighbor};
-                }
-            }
-        }};
+    columns.neighbors = neighbor_column(std::span<const Neighbors<D>>{hull.neighbors});
     columns.neighbor_table = hull.neighbors;
     const auto ids = [](const IdRuns& list) {
         return Column<std::int64_t>{

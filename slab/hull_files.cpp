@@ -2,6 +2,7 @@
 #include "slabhull/slab/hull_files.h"
 
 #include "mesh_soup.h"
+#include "neighbor_column.h"
 #include "slabhull/core/error.h"
 #include "slabhull/io/files.h"
 #include "slabhull/topology/adjacency.h"
@@ -220,10 +221,10 @@ std::size_t row_count(const DataArray& array) {
     return values / static_cast<std::size_t>(std::max(1, array.components));
 }
 
-/// The array as whole numbers; MSH holds them as doubles.
-Array<std::int64_t> whole_numbers(const io::Soup& soup, const DataArray& array) {
-    if (const auto* integers = std::get_if<Array<std::int64_t>>(&array.values)) {
-        return *integers;
+/// The array, which may go, as whole numbers; MSH holds them as doubles.
+Array<std::int64_t> whole_numbers(const io::Soup& soup, DataArray&& array) {
+    if (auto* integers = std::get_if<Array<std::int64_t>>(&array.values)) {
+        return std::move(*integers);
     }
     const auto* reals = std::get_if<Array<double>>(&array.values);
     Array<std::int64_t> whole;
@@ -238,30 +239,42 @@ Array<std::int64_t> whole_numbers(const io::Soup& soup, const DataArray& array) 
     return whole;
 }
 
-/// A given array of whole numbers with the right shape, or an empty one.
-Array<std::int64_t> optional_numbers(const io::Soup& soup, const DataArray* array, std::size_t rows,
-                                     int components) {
-    if (array == nullptr) {
+/// A given array of whole numbers with the right shape, or an empty one. It is taken out of the soup's
+/// arrays.
+Array<std::int64_t> take_numbers(const io::Soup& soup, std::vector<DataArray>& arrays,
+                                 const std::string& name, std::size_t rows, int components) {
+    const auto array =
+        std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& each) { return each.name == name; });
+    if (array == arrays.end()) {
         return {};
     }
     if (array->components != components || row_count(*array) != rows) {
         throw InputError(fmt::format("{}: array \"{}\" has {} rows of {}, expected {} of {}", soup.path,
                                      array->name, row_count(*array), array->components, rows, components));
     }
-    return whole_numbers(soup, *array);
+    DataArray taken = std::move(*array);
+    arrays.erase(array);
+    return whole_numbers(soup, std::move(taken));
+}
+
+IdRuns as_runs(const Array<std::int64_t>& numbers) {
+    IdRuns runs;
+    runs.append(numbers);
+    return runs;
+}
+
+template<int D>
+void require_times(const io::Soup& soup) {
+    if (D == 3 && soup_times(soup) == nullptr) {
+        throw InputError(
+            fmt::format("{}: needs a point array \"t\" of real numbers, one for each point", soup.path));
+    }
 }
 
 template<int D>
 Array<Point<D + 1>> space_time_points(const io::Soup& soup) {
     Array<Point<D + 1>> points(soup.points.size());
-    const Array<double>* times = nullptr;
-    if constexpr (D == 3) {
-        times = soup_times(soup);
-        if (times == nullptr) {
-            throw InputError(
-                fmt::format("{}: needs a point array \"t\" of real numbers, one for each point", soup.path));
-        }
-    }
+    const Array<double>* times = D == 3 ? soup_times(soup) : nullptr;
     for (std::size_t v = 0; v < points.size(); ++v) {
         std::copy(soup.points[v].begin(), soup.points[v].end(), points[v].begin());
         if (times != nullptr) {
@@ -297,19 +310,40 @@ void read_groups(const io::Soup& soup, HullArrays<D>& hull) {
 }
 
 template<int D>
-void read_msh_neighbors(const io::Soup& soup, HullArrays<D>& hull) {
-    hull.neighbors.resize(hull.cells.size() * (D + 1));
+Array<std::int64_t> take_msh_neighbors(io::Soup& soup, std::size_t cells) {
+    Array<std::int64_t> neighbors(cells * (D + 1));
     for (std::size_t i = 0; i <= D; ++i) {
-        const DataArray* array = soup.find_cell_data(fmt::format("neighbor_{}", i));
-        const auto tags = optional_numbers(soup, array, hull.cells.size(), 1);
+        const auto tags = take_numbers(soup, soup.cell_data, fmt::format("neighbor_{}", i), cells, 1);
         if (tags.empty()) {
-            hull.neighbors.clear();
-            return;
+            return {};
         }
         for (std::size_t c = 0; c < tags.size(); ++c) {
-            hull.neighbors[c * (D + 1) + i] = tags[c] - 1;
+            neighbors[c * (D + 1) + i] = tags[c] - 1;
         }
     }
+    return neighbors;
+}
+
+template<int D>
+void keep_neighbors(Array<std::int64_t>&& given, HullArrays<D>& hull) {
+    constexpr std::size_t row = D + 1;
+    const std::size_t cells = given.size() / row;
+    const auto impossible = [cells](std::int64_t n) {
+        return n < -1 || n >= static_cast<std::int64_t>(cells);
+    };
+    if (std::any_of(given.begin(), given.end(), impossible)) {
+        hull.other_neighbors = std::move(given);
+        return;
+    }
+    hull.neighbors.resize(cells);
+    parallel_for(cells, 1 << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            for (std::size_t i = 0; i < row; ++i) {
+                const std::int64_t n = given[c * row + i];
+                hull.neighbors[c][i] = n < 0 ? no_index : static_cast<Index>(n);
+            }
+        }
+    });
 }
 
 template<int D>
@@ -323,7 +357,7 @@ void read_fields(const io::Soup& soup, HullArrays<D>& hull) {
     const DataArray* numbers = soup.find_field_data("patch_number");
     const DataArray* names = soup.find_field_data("patch_name");
     if (numbers != nullptr && names != nullptr) {
-        const Array<std::int64_t> given = whole_numbers(soup, *numbers);
+        const Array<std::int64_t> given = whole_numbers(soup, DataArray{*numbers});
         const auto* texts = std::get_if<std::vector<std::string>>(&names->values);
         for (std::size_t i = 0; texts != nullptr && i < std::min(given.size(), texts->size()); ++i) {
             hull.patches.push_back({static_cast<PatchNumber>(given[i]), (*texts)[i]});
@@ -334,6 +368,10 @@ void read_fields(const io::Soup& soup, HullArrays<D>& hull) {
 Column<std::int64_t> optional_column(const Array<std::int64_t>& values, int components = 1) {
     return values.empty() ? Column<std::int64_t>{}
                           : Column<std::int64_t>::over(std::span<const std::int64_t>{values}, components);
+}
+
+Column<std::int64_t> optional_column(const IdRuns& values) {
+    return values.empty() ? Column<std::int64_t>{} : ids(values);
 }
 
 } // namespace
@@ -381,10 +419,10 @@ void write_terminating_cap(io::AtomicFile& file, const Hull<D>& hull) {
 
 template<int D>
 SpatialMesh<D> read_cap(const std::filesystem::path& path) {
-    const io::Soup soup = io::read_vtu(path);
+    io::Soup soup = io::read_vtu(path);
     MeshArrays<D> mesh = mesh_of_soup<D>(soup);
     const auto ids = [&](const char* name) {
-        return optional_numbers(soup, soup.find_point_data(name), mesh.points.size(), 1);
+        return take_numbers(soup, soup.point_data, name, mesh.points.size(), 1);
     };
     SpatialMesh<D> cap;
     cap.vertex_ids = ids("vertex_id");
@@ -427,33 +465,40 @@ MeshKind kind_of(const io::Soup& soup) {
 }
 
 template<int D>
-HullArrays<D> hull_of_soup(const io::Soup& soup) {
+HullArrays<D> hull_of_soup(io::Soup& soup) {
     HullArrays<D> hull;
-    hull.points = space_time_points<D>(soup);
-    hull.cells = simplices_of<D>(soup);
-    const auto of_cells = [&](const char* name, int components) {
-        return optional_numbers(soup, soup.find_cell_data(name), hull.cells.size(), components);
+    const std::size_t cells = soup.simplices[D].size(D);
+    const std::size_t points = soup.points.size();
+    const auto runs_of_cells = [&](const char* name) {
+        return as_runs(take_numbers(soup, soup.cell_data, name, cells, 1));
     };
     const auto of_points = [&](const char* name) {
-        return optional_numbers(soup, soup.find_point_data(name), hull.points.size(), 1);
+        return take_numbers(soup, soup.point_data, name, points, 1);
     };
+    require_times<D>(soup);
     read_fields(soup, hull);
-    if (soup.find_cell_data("region") != nullptr) {
-        hull.region = of_cells("region", 1);
-        hull.patch = of_cells("patch", 1);
-        hull.layer = of_cells("layer", 1);
-        hull.neighbors = of_cells("neighbors", D + 1);
+    const bool of_msh = soup.find_cell_data("neighbor_0") != nullptr;
+    const bool has_regions = soup.find_cell_data("region") != nullptr;
+    hull.layer = runs_of_cells("layer");
+    if (has_regions) {
+        hull.region = runs_of_cells("region");
+        hull.patch = runs_of_cells("patch");
     } else {
         read_groups(soup, hull);
-        read_msh_neighbors(soup, hull);
-        hull.layer = of_cells("layer", 1);
     }
-    hull.vertex_id = of_points("vertex_id");
-    hull.track_id = of_points("track_id");
+    keep_neighbors<D>(has_regions ? take_numbers(soup, soup.cell_data, "neighbors", cells, D + 1)
+                                  : take_msh_neighbors<D>(soup, cells),
+                      hull);
+    hull.vertex_id = as_runs(of_points("vertex_id"));
+    hull.track_id = as_runs(of_points("track_id"));
     hull.cell_of_vertex = of_points("cell");
-    if (soup.find_cell_data("neighbor_0") != nullptr) { // an MSH has element tags there, too
+    if (of_msh) { // an MSH has element tags there, too
         std::for_each(hull.cell_of_vertex.begin(), hull.cell_of_vertex.end(), [](auto& cell) { --cell; });
     }
+    hull.points = space_time_points<D>(soup);
+    soup.points = {};
+    hull.cells = simplices_of<D>(soup);
+    soup.simplices[D].vertices = {};
     return hull;
 }
 
@@ -467,7 +512,9 @@ HullColumns<D> HullArrays<D>::columns() const {
     all.layer = optional_column(layer);
     all.vertex_id = optional_column(vertex_id);
     all.track_id = optional_column(track_id);
-    all.neighbors = optional_column(neighbors, D + 1);
+    all.neighbors = neighbors.empty() ? optional_column(other_neighbors, D + 1)
+                                      : neighbor_column(std::span<const Neighbors<D>>{neighbors});
+    all.neighbor_table = neighbors;
     all.cell_of_vertex = optional_column(cell_of_vertex);
     all.patches = patches;
     all.time = time;
@@ -498,8 +545,8 @@ template void write_section<2>(io::AtomicFile&, const Section<2>&);
 template void write_section<3>(io::AtomicFile&, const Section<3>&);
 template struct HullArrays<2>;
 template struct HullArrays<3>;
-template HullArrays<2> hull_of_soup<2>(const io::Soup&);
-template HullArrays<3> hull_of_soup<3>(const io::Soup&);
+template HullArrays<2> hull_of_soup<2>(io::Soup&);
+template HullArrays<3> hull_of_soup<3>(io::Soup&);
 template MeshArrays<2> mesh_of_soup<2>(const io::Soup&);
 template MeshArrays<3> mesh_of_soup<3>(const io::Soup&);
 

@@ -99,7 +99,7 @@ std::size_t betti_limit(const CheckCommand& command) {
 }
 
 template<int D>
-int check_soup(const CheckCommand& command, const io::Soup& soup, bool hull) {
+int check_soup(const CheckCommand& command, io::Soup& soup, bool hull) {
     CheckOptions options;
     options.betti_cells = betti_limit(command);
     const io::SimplexBlock& block = soup.simplices[D];
@@ -129,7 +129,7 @@ int check_soup(const CheckCommand& command, const io::Soup& soup, bool hull) {
 
 int check(const CheckCommand& command) {
     set_thread_count(command.threads);
-    const io::Soup soup = read_named(command.file, command.from);
+    io::Soup soup = read_named(command.file, command.from);
     const MeshKind kind = kind_of(soup);
     return kind.dimension == 2 ? check_soup<2>(command, soup, kind.hull)
                                : check_soup<3>(command, soup, kind.hull);

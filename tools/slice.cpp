@@ -158,7 +158,7 @@ public:
 
 private:
     void cut_file(const std::string& file) {
-        const io::Soup soup = read_named(file, command_.from);
+        io::Soup soup = read_named(file, command_.from);
         const MeshKind kind = kind_of(soup);
         if (!kind.hull) {
             throw InputError{fmt::format("{}: a mesh in space, not the hull of a slab", file)};
@@ -176,7 +176,7 @@ private:
     }
 
     template<int D>
-    void cut_hull(const std::string& file, const io::Soup& soup) {
+    void cut_hull(const std::string& file, io::Soup& soup) {
         const HullArrays<D> arrays = hull_of_soup<D>(soup);
         const HullColumns<D> hull = arrays.columns();
         const TimeSpan span = time_span(hull);

@@ -56,17 +56,22 @@ template<int D>
 struct HullArrays {
     Array<Point<D + 1>> points;
     Array<Simplex<D>> cells;
-    Array<std::int64_t> region, patch, layer, neighbors;
-    Array<std::int64_t> vertex_id, track_id, cell_of_vertex;
+    IdRuns region, patch, layer;         ///< of cells
+    Array<Neighbors<D>> neighbors;       ///< of cells, where all of them could be
+    Array<std::int64_t> other_neighbors; ///< as the file has them, where they could not
+    IdRuns vertex_id, track_id;          ///< of points
+    Array<std::int64_t> cell_of_vertex;
     PatchList patches;
     std::optional<std::array<double, 2>> time;
 
     HullColumns<D> columns() const;
 };
 
-/// Takes the arrays of a hull out of what a file says; throws InputError for arrays of the wrong shape.
+/// Takes the arrays of a hull out of what a file says; throws InputError for arrays of the wrong shape. The
+/// soup loses what is taken, array by array, so that little is held twice; it keeps its tags, groups and
+/// field data.
 template<int D>
-HullArrays<D> hull_of_soup(const io::Soup& soup);
+HullArrays<D> hull_of_soup(io::Soup& soup);
 
 /// The points and the cells of a spatial mesh, as the file has them. mesh_of_soup() throws InputError for
 /// triangles that do not lie in a plane z = constant.
