@@ -120,7 +120,7 @@ public:
     template<int D, std::size_t N>
     void add(const std::array<std::array<double, N>, D + 1>& corners) {
         AngleHistogram counts{};
-        if (for_each_cosine<D>(corners, [&counts](double s) { ++counts[bin(degrees(s))]; })) {
+        if (for_each_cosine<D>(corners, [&counts](double s) { ++counts[bin(s)]; })) {
             add(AngleCounts{counts});
         }
     }
@@ -134,11 +134,24 @@ public:
 
 private:
     explicit AngleCounts(const AngleHistogram& counts) : counts_{counts} {}
-    static std::size_t bin(double angle) {
-        constexpr double width = 180.0 / angle_bins;
-        return std::min(static_cast<std::size_t>(angle / width), angle_bins - 1);
+    /// cos |cos| of the angles between two bins, which spares the angles themselves.
+    static std::array<double, angle_bins - 1> make_edges() {
+        std::array<double, angle_bins - 1> edges;
+        for (std::size_t k = 1; k < angle_bins; ++k) {
+            const double cosine = std::cos(static_cast<double>(k) * std::numbers::pi / angle_bins);
+            edges[k - 1] = cosine * std::abs(cosine);
+        }
+        return edges;
+    }
+    static std::size_t bin(double s) {
+        std::size_t below = 0;
+        for (const double edge : edges_) {
+            below += s <= edge ? 1 : 0;
+        }
+        return below;
     }
 
+    static inline const std::array<double, angle_bins - 1> edges_ = make_edges();
     AngleHistogram counts_{};
 };
 
