@@ -7,13 +7,33 @@ namespace slabhull {
 
 namespace {
 
-std::size_t peak_of(int who) {
+rusage usage_of(int who) {
     rusage usage{};
     ::getrusage(who, &usage);
-    return static_cast<std::size_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+    return usage;
+}
+
+double cpu_seconds_of(int who) {
+    const rusage usage = usage_of(who);
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::size_t peak_of(int who) {
+    return static_cast<std::size_t>(usage_of(who).ru_maxrss) * 1024; // Linux counts in KiB
 }
 
 } // namespace
+
+double cpu_seconds() {
+    return cpu_seconds_of(RUSAGE_SELF);
+}
+
+double cpu_seconds_of_children() {
+    return cpu_seconds_of(RUSAGE_CHILDREN);
+}
 
 std::size_t peak_memory() {
     return peak_of(RUSAGE_SELF);

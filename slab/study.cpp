@@ -12,20 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 namespace slabhull {
 
 namespace {
-
-double cpu_seconds_of(int who) {
-    rusage usage{};
-    ::getrusage(who, &usage);
-    const auto seconds = [](const timeval& time) {
-        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 template<int D>
 CellShapes shapes_of(const Hull<D>& hull, std::span<const Simplex<D>> cells) {
@@ -136,7 +126,7 @@ double StudyRow::total_seconds() const {
 
 StudyRow study_level(const Case& the_case, const std::optional<std::filesystem::path>& hull_file) {
     StudyRow row = the_case.dimension == 2 ? study<2>(the_case, hull_file) : study<3>(the_case, hull_file);
-    row.cpu_seconds = cpu_seconds_of(RUSAGE_SELF) + cpu_seconds_of(RUSAGE_CHILDREN);
+    row.cpu_seconds = cpu_seconds() + cpu_seconds_of_children();
     row.peak_bytes = peak_memory();
     row.mesher_peak_bytes = peak_memory_of_children();
     return row;

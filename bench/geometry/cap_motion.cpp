@@ -4,6 +4,7 @@
 // its smallest angle.
 #include "slabhull/geometry/cap_motion.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/stopwatch.h"
 #include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/geometry/measures.h"
 #include "slabhull/geometry/shapes.h"
@@ -13,23 +14,14 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <sys/resource.h>
 
 using namespace slabhull;
 
 namespace {
 
 /// Seconds of CPU of this process and of its ended children.
-double cpu_seconds() {
-    double sum = 0;
-    for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
-        rusage usage{};
-        ::getrusage(who, &usage);
-        for (const timeval& time : {usage.ru_utime, usage.ru_stime}) {
-            sum += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-        }
-    }
-    return sum;
+double cpu_of_all() {
+    return cpu_seconds() + cpu_seconds_of_children();
 }
 
 template<int D>
@@ -74,9 +66,9 @@ const Turning<D>& turning(benchmark::State& state) {
             p[0] = std::cos(0.02) * x - std::sin(0.02) * y;
             p[1] = std::sin(0.02) * x + std::cos(0.02) * y;
         }
-        const double start = cpu_seconds();
+        const double start = cpu_of_all();
         result.mesh = mesh_cap<D>(result.before, options_for<D>(refinement));
-        result.seconds = cpu_seconds() - start;
+        result.seconds = cpu_of_all() - start;
         result.boundary.resize(result.before.points.size());
         std::iota(result.boundary.begin(), result.boundary.end(), Index{0});
     }
@@ -99,9 +91,9 @@ void move_with_body(benchmark::State& state) {
     }
     double seconds = 0;
     for (auto run : state) {
-        const double start = cpu_seconds();
+        const double start = cpu_of_all();
         benchmark::DoNotOptimize(move());
-        const double passed = cpu_seconds() - start;
+        const double passed = cpu_of_all() - start;
         state.SetIterationTime(passed);
         seconds += passed;
     }

@@ -16,7 +16,6 @@
 #include <fstream>
 #include <map>
 #include <string>
-#include <sys/resource.h>
 #include <vector>
 
 using namespace slabhull;
@@ -24,15 +23,6 @@ using namespace slabhull;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double cpu_seconds(int who) {
-    rusage usage{};
-    ::getrusage(who, &usage);
-    const auto seconds = [](const timeval& time) {
-        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 /// The experiment's hull with about so many tetrahedra; refinement 1.187 gives 367,000.
 Case case_of(double tets, const std::filesystem::path& folder) {
@@ -62,12 +52,12 @@ struct Run {
 };
 
 Run run(double tets, const std::filesystem::path& folder) {
-    const double self = cpu_seconds(RUSAGE_SELF);
-    const double children = cpu_seconds(RUSAGE_CHILDREN);
+    const double self = cpu_seconds();
+    const double children = cpu_seconds_of_children();
     Run result;
     result.tets = run_case(case_of(tets, folder), {}, {}).cells;
-    result.cpu_beside = cpu_seconds(RUSAGE_SELF) - self;
-    result.cpu_meshers = cpu_seconds(RUSAGE_CHILDREN) - children;
+    result.cpu_beside = cpu_seconds() - self;
+    result.cpu_meshers = cpu_seconds_of_children() - children;
     const Json report = Json::parse(std::ifstream{folder / "report.json"});
     result.cap_blocks = report["slabs"][0]["cap"]["blocks"];
     for (const Json& part : {report["initial_cap"], report["slabs"][0]}) {

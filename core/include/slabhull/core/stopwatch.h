@@ -22,6 +22,10 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
+/// Processor time of this process's threads so far, in seconds, and of its ended children.
+double cpu_seconds();
+double cpu_seconds_of_children();
+
 /// Largest resident memory of this process so far, in bytes, and of its ended children (the largest one).
 std::size_t peak_memory();
 std::size_t peak_memory_of_children();
