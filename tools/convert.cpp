@@ -34,7 +34,7 @@ struct ConvertCommand {
     io::WriteOptions writing;
 };
 
-const std::vector<std::string> regions{"initial", "side", "terminating"}; // by their numbers
+const std::vector<std::string> region_names{"initial", "side", "terminating"}; // by their numbers
 
 void require_sense(const ConvertCommand& command) {
     if (command.weld && !(*command.weld >= 0 && std::isfinite(*command.weld))) {
@@ -51,7 +51,8 @@ void tell(const std::string& file, const std::string& text) {
 
 void edit(const ConvertCommand& command, io::Soup& soup) {
     if (!command.region.empty()) {
-        const auto region = std::find(regions.begin(), regions.end(), command.region) - regions.begin();
+        const auto region =
+            std::find(region_names.begin(), region_names.end(), command.region) - region_names.begin();
         select_region(soup, static_cast<int>(region));
     }
     if (command.patch) {
@@ -223,7 +224,7 @@ void add_convert(CLI::App& program, int& exit_code) {
                     "So many files, ranges of cells, for parallel readers: .pvtu, .msh")
         ->check([](const std::string& count) { return count == "0" ? "expected at least 1, not 0" : ""; });
     app->add_option("--region", command->region, "Of a hull, only that part: initial, side or terminating")
-        ->check(CLI::IsMember(regions));
+        ->check(CLI::IsMember(region_names));
     app->add_option("--patch", command->patch,
                     "Only the simplices of the patch or physical group of that name");
     app->add_flag("--extract-boundary", command->boundary, "The facets that only one cell has, outward");

@@ -359,7 +359,7 @@ TEST_CASE("XDMF or its HDF5 file damaged or cut short is refused or read as a co
         CHECK(is_consistent(soup));
     };
 #ifdef __SANITIZE_ADDRESS__ // under which a process takes long to start, and each file takes one
-    constexpr int rounds = 60;
+    constexpr int rounds = 20;
 #else
     constexpr int rounds = 300;
 #endif
