@@ -16,7 +16,7 @@ def apart(ours, paper):
 
 
 def print_rows(rows):
-    print("| case | level | paper: simplices, vertices | ours | apart | errors of hull, initial cap, side, "
+    print("| case | level | paper: simplices / vertices | ours | apart | errors of hull, initial cap, side, "
           "terminating cap, enclosed | s | bytes |")
     print("|---|---|---|---|---|---|---|---|")
     for row in rows:
@@ -24,9 +24,9 @@ def print_rows(rows):
         cells = counts["cells"]
         errors = ", ".join(f"{row['measures'][name]['error']:+.1e}" for name in MEASURES)
         print(f"| {row['case']} | {row['level']} "
-              f"| {thousands(paper['cells'])}, {thousands(paper['vertices'])} "
-              f"| {thousands(cells)}, {thousands(counts['vertices'])} "
-              f"| {apart(cells, paper['cells'])}, {apart(counts['vertices'], paper['vertices'])} "
+              f"| {thousands(paper['cells'])} / {thousands(paper['vertices'])} "
+              f"| {thousands(cells)} / {thousands(counts['vertices'])} "
+              f"| {apart(cells, paper['cells'])} / {apart(counts['vertices'], paper['vertices'])} "
               f"| {errors} | {sum(row['seconds'].values()):.2f} | {row['peak_bytes'] / cells:.1f} |")
 
 
