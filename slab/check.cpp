@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/check.h"
 
+#include "cell_columns.h"
 #include "check_shape.h"
 #include "hull_view.h"
-#include "neighbor_column.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/topology/homology.h"
 
@@ -206,20 +206,12 @@ private:
 
 template<int D>
 HullColumns<D> columns_of(const Hull<D>& hull) {
-    const auto by_cell = [&hull](auto value) {
-        return Column<std::int64_t>{hull.cells.size(), 1,
-                                    [value](std::size_t begin, std::size_t end, std::int64_t* out) {
-                                        for (std::size_t c = begin; c < end; ++c) {
-                                            *out++ = value(c);
-                                        }
-                                    }};
-    };
     HullColumns<D> columns;
     columns.points = hull.points;
     columns.cells = hull.cells;
-    columns.region = by_cell([&hull](std::size_t c) { return static_cast<std::int64_t>(hull.region(c)); });
-    columns.patch = by_cell([&hull](std::size_t c) { return std::int64_t{hull.patch(c)}; });
-    columns.layer = by_cell([&hull](std::size_t c) { return std::int64_t{hull.layer(c)}; });
+    columns.region = region_column(hull);
+    columns.patch = patch_column(hull);
+    columns.layer = layer_column(hull);
     columns.neighbors = neighbor_column(std::span<const Neighbors<D>>{hull.neighbors});
     columns.neighbor_table = hull.neighbors;
     const auto ids = [](const IdRuns& list) {

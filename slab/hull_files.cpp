@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/hull_files.h"
 
+#include "cell_columns.h"
 #include "mesh_soup.h"
-#include "neighbor_column.h"
 #include "slabhull/core/error.h"
 #include "slabhull/io/files.h"
 #include "slabhull/topology/adjacency.h"
@@ -153,18 +153,14 @@ MeshColumns mesh_columns(const Hull<D>& hull) {
 template<int D>
 MeshColumns vtu_columns(const Hull<D>& hull) {
     MeshColumns mesh = mesh_columns(hull);
-    const std::size_t cells = hull.cells.size();
     mesh.point_data = {{"t", Scalar::float64, times_of(hull)},
                        {"vertex_id", Scalar::int64, ids(hull.vertex_ids)},
                        {"track_id", Scalar::int64, ids(hull.track_ids)},
                        {"cell", Scalar::int64, cells_of_points(hull)}};
-    const auto region = [&hull](std::size_t c) { return static_cast<int>(hull.region(c)); };
-    const auto patch = [&hull](std::size_t c) { return hull.patch(c); };
-    const auto layer = [&hull](std::size_t c) { return hull.layer(c); };
     mesh.cell_data = {
-        {"region", Scalar::int32, computed<std::int64_t>(cells, region)},
-        {"patch", Scalar::int32, computed<std::int64_t>(cells, patch)},
-        {"layer", Scalar::int32, computed<std::int64_t>(cells, layer)},
+        {"region", Scalar::int32, region_column(hull)},
+        {"patch", Scalar::int32, patch_column(hull)},
+        {"layer", Scalar::int32, layer_column(hull)},
         {"neighbors", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors})}};
     mesh.field_data = {number_field("slab", {hull.slab}),
                        {"time", 1, Array<double>{hull.time[0], hull.time[1]}},

@@ -183,6 +183,32 @@ TEMPLATE_TEST_CASE_SIG("sound hulls pass, with everything looked at", "", ((int 
     require_clean(check(body_claims<D>()));
 }
 
+TEMPLATE_TEST_CASE_SIG("the columns of a hull say of any range of cells what the hull says of each", "",
+                       ((int D), D), 2, 3) {
+    const Hull<D> hull = specimens::swept(specimens::box_with_body<D>(), 3);
+    const HullColumns<D> columns = columns_of(hull);
+    const std::size_t cells = hull.cells.size();
+    const auto compare = [&](std::size_t begin, std::size_t end) {
+        std::vector<std::int64_t> region(end - begin), patch(end - begin), layer(end - begin);
+        columns.region.fill(begin, end, region.data());
+        columns.patch.fill(begin, end, patch.data());
+        columns.layer.fill(begin, end, layer.data());
+        for (std::size_t c = begin; c < end; ++c) {
+            REQUIRE(region[c - begin] == static_cast<std::int64_t>(hull.region(c)));
+            REQUIRE(patch[c - begin] == hull.patch(c));
+            REQUIRE(layer[c - begin] == hull.layer(c));
+        }
+    };
+    compare(0, cells);
+    for (const std::size_t middle :
+         {hull.initial_cells, hull.initial_cells + 1, hull.initial_cells + hull.side_cells / 2,
+          hull.terminating_begin() - 1, hull.terminating_begin()}) {
+        compare(middle, middle);
+        compare(middle - 1, std::min(cells, middle + 7));
+        compare(middle, cells);
+    }
+}
+
 TEMPLATE_TEST_CASE_SIG("points and cells alone are checked as far as they go", "", ((int D), D), 2, 3) {
     const auto report = check_hull<D>(body_claims<D>().bare());
     INFO(all_texts(report));

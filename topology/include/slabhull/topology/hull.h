@@ -59,7 +59,25 @@ struct Hull {
         return region(cell) == Region::intermediate ? facet_patch[prism(cell) % facet_patch.size()] : 0;
     }
 
+    /// The cell after the last one of a cell's region.
+    std::size_t region_end(std::size_t cell) const {
+        if (cell < initial_cells) {
+            return initial_cells;
+        }
+        return cell < terminating_begin() ? terminating_begin() : cells.size();
+    }
+    /// The same for a side cell's prism and its layer; for a cap's, its region.
+    std::size_t prism_end(std::size_t cell) const { return end_by(cells_per_prism, cell); }
+    std::size_t layer_end(std::size_t cell) const {
+        return end_by(facet_patch.size() * cells_per_prism, cell);
+    }
+
 private:
+    std::size_t end_by(std::size_t length, std::size_t cell) const {
+        return region(cell) == Region::intermediate
+                   ? initial_cells + ((cell - initial_cells) / length + 1) * length
+                   : region_end(cell);
+    }
     std::size_t prism(std::size_t cell) const { return (cell - initial_cells) / cells_per_prism; }
 };
 
