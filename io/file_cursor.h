@@ -164,11 +164,14 @@ T FileCursor::parsed(const char* what) {
     }
     T value{};
     const auto [stop, problem] = std::from_chars(begin, end, value);
-    if (stop == end && load_more(offset_)) { // it may go on
-        return parsed<T>(what);
-    }
-    if (problem != std::errc{} || (stop != end && !is_blank(*stop))) {
-        fail_word(word(), what);
+    if (problem != std::errc{} || stop == end || !is_blank(*stop)) {
+        // Cut short, as "-" and "1e-" are of a number, it looks like another one or like none.
+        if (std::find_if(begin, end, is_blank) == end && load_more(offset_)) {
+            return parsed<T>(what);
+        }
+        if (problem != std::errc{} || stop != end) {
+            fail_word(word(), what);
+        }
     }
     offset_ = static_cast<std::size_t>(stop - bytes_.data());
     return value;

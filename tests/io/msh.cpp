@@ -49,6 +49,28 @@ TEST_CASE("Gmsh's unit cube is read from each of its formats: volume, patch area
     }
 }
 
+TEST_CASE("A number that the reader's window cuts in two anywhere is read whole", "[io]") {
+    const scratch::Folder folder;
+    const std::string row = "-1.25e-05 -7 +2.5E+01\n"; // 4 MiB are in memory at once
+    constexpr std::size_t nodes = 250'000;
+    std::string text;
+    for (std::size_t k = 1; k <= nodes; ++k) {
+        text += fmt::format("{} {}", k, row);
+    }
+    for (std::size_t shift = 0; shift < row.size() + 7; ++shift) {
+        CAPTURE(shift);
+        const io::Soup soup = io::read_msh(
+            scratch::put(folder / "a.msh",
+                         fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\n{}\n$EndComments\n"
+                                     "$Nodes\n{}\n{}$EndNodes\n$Elements\n1\n1 2 2 5 1 1 2 3\n$EndElements\n",
+                                     std::string(shift, 'x'), nodes, text)));
+        REQUIRE(soup.points.size() == nodes);
+        REQUIRE(std::all_of(soup.points.begin(), soup.points.end(), [](const Point<3>& point) {
+            return point == Point<3>{-1.25e-5, -7, 25};
+        }));
+    }
+}
+
 TEST_CASE("The same mesh in several formats gives the same soup", "[io]") {
     const auto check = [](const char* a, const char* b) {
         CAPTURE(a, b);
