@@ -39,4 +39,5 @@ run bench_geometry_trajectories
 run bench_topology_adjacency --soups="$out/soups"
 run bench_io_files --soups="$out/soups"
 build/release/tools/slabhull study all --levels "$levels" --out "$out/study"
+bench/study_table.py "$out/study/study.json" >"$out/study/tables.md"
 [[ ! -s $out/failed.txt ]]
