@@ -214,13 +214,8 @@ HullColumns<D> columns_of(const Hull<D>& hull) {
     columns.layer = layer_column(hull);
     columns.neighbors = neighbor_column(std::span<const Neighbors<D>>{hull.neighbors});
     columns.neighbor_table = hull.neighbors;
-    const auto ids = [](const IdRuns& list) {
-        return Column<std::int64_t>{
-            list.size(), 1,
-            [&list](std::size_t begin, std::size_t end, std::int64_t* out) { list.copy(begin, end, out); }};
-    };
-    columns.vertex_id = ids(hull.vertex_ids);
-    columns.track_id = ids(hull.track_ids);
+    columns.vertex_id = id_column(hull.vertex_ids);
+    columns.track_id = id_column(hull.track_ids);
     columns.patches = hull.patches;
     columns.time = hull.time;
     return columns;

@@ -61,14 +61,6 @@ Column<std::int64_t> ids(const Array<std::int64_t>& values) {
     return Column<std::int64_t>::over(std::span<const std::int64_t>{values});
 }
 
-/// Those from `first` on.
-Column<std::int64_t> ids(const IdRuns& values, std::size_t first = 0) {
-    return {values.size() - first, 1,
-            [&values, first](std::size_t begin, std::size_t end, std::int64_t* out) {
-                values.copy(first + begin, first + end, out);
-            }};
-}
-
 /// The first cell of each point, found for a block of points after the other, as writers ask for them.
 template<int D>
 class CellsOfPoints {
@@ -154,8 +146,8 @@ template<int D>
 MeshColumns vtu_columns(const Hull<D>& hull) {
     MeshColumns mesh = mesh_columns(hull);
     mesh.point_data = {{"t", Scalar::float64, times_of(hull)},
-                       {"vertex_id", Scalar::int64, ids(hull.vertex_ids)},
-                       {"track_id", Scalar::int64, ids(hull.track_ids)},
+                       {"vertex_id", Scalar::int64, id_column(hull.vertex_ids)},
+                       {"track_id", Scalar::int64, id_column(hull.track_ids)},
                        {"cell", Scalar::int64, cells_of_points(hull)}};
     mesh.cell_data = {
         {"region", Scalar::int32, region_column(hull)},
@@ -204,8 +196,8 @@ MeshColumns msh_columns(const Hull<D>& hull) {
     if constexpr (D == 3) {
         mesh.point_data.push_back({"t", Scalar::float64, times_of(hull)});
     }
-    mesh.point_data.push_back({"vertex_id", Scalar::int64, ids(hull.vertex_ids)});
-    mesh.point_data.push_back({"track_id", Scalar::int64, ids(hull.track_ids)});
+    mesh.point_data.push_back({"vertex_id", Scalar::int64, id_column(hull.vertex_ids)});
+    mesh.point_data.push_back({"track_id", Scalar::int64, id_column(hull.track_ids)});
     // Element tags count from 1.
     mesh.cell_data = {
         {"neighbor", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors}, 1)}};
@@ -367,7 +359,7 @@ Column<std::int64_t> optional_column(const Array<std::int64_t>& values, int comp
 }
 
 Column<std::int64_t> optional_column(const IdRuns& values) {
-    return values.empty() ? Column<std::int64_t>{} : ids(values);
+    return values.empty() ? Column<std::int64_t>{} : id_column(values);
 }
 
 } // namespace
@@ -407,8 +399,8 @@ void write_terminating_cap(io::AtomicFile& file, const Hull<D>& hull) {
                    }};
     mesh.cells = index_rows(std::span<const Simplex<D>>{hull.cells}.subspan(first_cell),
                             -static_cast<std::int64_t>(first_point));
-    mesh.point_data = {{"vertex_id", Scalar::int64, ids(hull.vertex_ids, first_point)},
-                       {"track_id", Scalar::int64, ids(hull.track_ids, first_point)}};
+    mesh.point_data = {{"vertex_id", Scalar::int64, id_column(hull.vertex_ids, first_point)},
+                       {"track_id", Scalar::int64, id_column(hull.track_ids, first_point)}};
     mesh.field_data = {{"time", 1, Array<double>{hull.time[1]}}, number_field("dimension", {D})};
     io::write_vtu(file, mesh);
 }

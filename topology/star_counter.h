@@ -77,8 +77,8 @@ private:
     Index epoch_ = 1;
 };
 
-/// Counts the stars of vertices. StarWalker tells which cells are in one; this only counts, three times as
-/// fast. Needs: neighbours that share the facets they are said to share, and are so mutually.
+/// Counts the stars of vertices. StarWalker tells which cells are in one; this only counts, which is
+/// faster. Needs: neighbours that share the facets they are said to share, and are so mutually.
 template<int D>
 class StarCounter {
 public:

@@ -96,6 +96,7 @@ inline bool is_consistent(const io::Soup& soup) {
         const auto& block = soup.simplices[d];
         good = good && block.vertices.size() % (d + 1) == 0 &&
                (block.tags.empty() || block.tags.size() == block.size(static_cast<int>(d))) &&
+               (block.physical.empty() || block.physical.size() == block.size(static_cast<int>(d))) &&
                std::all_of(block.vertices.begin(), block.vertices.end(),
                            [&](Index vertex) { return vertex < soup.points.size(); });
     }

@@ -56,35 +56,11 @@ std::string refusal(const std::string& changed, const std::string& text, const s
 
 template<class T>
 const Array<T>& values(const io::DataArray* array) {
-    REQUIRE(array != nullptr);
-    REQUIRE(std::holds_alternative<Array<T>>(array->values));
-    return std::get<Array<T>>(array->values);
+    return soups::values<Array<T>>(array);
 }
 
 using Integers = Array<std::int64_t>;
 using Reals = Array<double>;
-
-bool is_consistent(const io::Soup& soup) {
-    bool good = true;
-    for (std::size_t d = 0; d < 4; ++d) {
-        const auto& block = soup.simplices[d];
-        good = good && block.vertices.size() % (d + 1) == 0 &&
-               (block.physical.empty() || block.physical.size() == block.size(static_cast<int>(d))) &&
-               std::all_of(block.vertices.begin(), block.vertices.end(),
-                           [&](Index vertex) { return vertex < soup.points.size(); });
-    }
-    const int top = soup.top_dimension();
-    const std::size_t cells = soup.simplices[static_cast<std::size_t>(top)].size(top);
-    const auto has_rows = [](std::size_t rows) {
-        return [rows](const io::DataArray& array) {
-            return std::visit([](const auto& all) { return all.size(); }, array.values) ==
-                   rows * static_cast<std::size_t>(array.components);
-        };
-    };
-    return good &&
-           std::all_of(soup.point_data.begin(), soup.point_data.end(), has_rows(soup.points.size())) &&
-           std::all_of(soup.cell_data.begin(), soup.cell_data.end(), has_rows(cells));
-}
 
 } // namespace
 
@@ -185,7 +161,7 @@ TEST_CASE("TetGen's files cut short or damaged anywhere are refused or read as a
         const bool alone = extension == std::string{"smesh"} || extension == std::string{"poly"};
         const auto read = [&](const std::filesystem::path& path) {
             const io::Soup soup = io::read_tetgen(alone ? path : files.path("ele"));
-            CHECK(is_consistent(soup));
+            CHECK(soups::is_consistent(soup));
         };
         refused += scratch::survive_damage(read, text, files.path(extension), 2000);
         for (std::size_t size = 0; size < text.size(); ++size) {
