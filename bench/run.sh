@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Runs all benches and the study: bench/run.sh [FOLDER [LEVELS]]
-# FOLDER (build/bench) gets the machine, a file per bench and the study's tables; LEVELS (1-5) are the study's. The figures of
+# FOLDER (build/bench-results) gets the machine, a file per bench and the study's tables; LEVELS (1-5) are the study's. The figures of
 # bench/RESULTS.md are from here. For an idle machine.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-out=${1:-build/bench}
+out=${1:-build/bench-results}
 levels=${2:-1-5}
 mkdir -p "$out/soups"
-scripts/build.sh release -DSLABHULL_BENCH=ON
+scripts/build.sh bench
 
 {
     date -u +%F
@@ -23,7 +23,7 @@ run() { # the bench and its options
     local name=$1
     shift
     echo "$name"
-    "build/release/bench/$name" "$@" >"$out/$name.txt" 2>&1 || echo "$name: exit $?" | tee -a "$out/failed.txt"
+    "build/bench/bench/$name" "$@" >"$out/$name.txt" 2>&1 || echo "$name: exit $?" | tee -a "$out/failed.txt"
 }
 
 run bench_slab_check
@@ -38,6 +38,6 @@ run bench_geometry_mesh_order --benchmark_min_time=1
 run bench_geometry_trajectories
 run bench_topology_adjacency --soups="$out/soups"
 run bench_io_files --soups="$out/soups"
-build/release/tools/slabhull study all --levels "$levels" --out "$out/study"
+build/bench/tools/slabhull study all --levels "$levels" --out "$out/study"
 bench/study_table.py "$out/study/study.json" >"$out/study/tables.md"
 [[ ! -s $out/failed.txt ]]

@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install-deps.sh
-scripts/build.sh release -DSLABHULL_TESTS=OFF -DSLABHULL_BENCH=OFF
+scripts/build.sh release -DSLABHULL_TESTS=OFF
 program=build/release/tools/slabhull
 
 echo
