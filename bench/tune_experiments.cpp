@@ -6,9 +6,10 @@
 // meshing anything. The caps are predicted from the levels before: a polynomial in the refinement. Levels of
 // at most so many simplices (20 million) are then meshed, to correct the polynomial and to tell how good it
 // was.
+#include "slabhull/cases/experiments.h"
+#include "slabhull/cases/initial.h"
+#include "slabhull/cases/settings.h"
 #include "slabhull/geometry/shapes.h"
-#include "slabhull/slab/experiments.h"
-#include "slabhull/slab/initial.h"
 #include "slabhull/slab/slab.h"
 
 #include <algorithm>

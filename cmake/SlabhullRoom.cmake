@@ -28,11 +28,12 @@ if(SLABHULL_FUZZ)
     target_link_options(slabhull_settings INTERFACE -fsanitize=${fuzz_sanitizers})
 endif()
 
-# slabhull_room(<name> SOURCES <files> [USES <rooms>] [LINKS <private libraries>])
+# slabhull_room(<name> [NOT_INSTALLED] SOURCES <files> [USES <rooms>] [LINKS <private libraries>])
 # A room is a static library Slabhull::<name> with public headers under include/slabhull/<name>/.
-# What it LINKS stays inside its .cpp files and out of its headers.
+# What it LINKS stays inside its .cpp files and out of its headers. Private headers are included by their path from the
+# top: "geometry/meshing/cap_spacing.h".
 function(slabhull_room name)
-    cmake_parse_arguments(room "" "" "SOURCES;USES;LINKS" ${ARGN})
+    cmake_parse_arguments(room "NOT_INSTALLED" "" "SOURCES;USES;LINKS" ${ARGN})
     set(target slabhull_${name})
     add_library(${target} STATIC ${room_SOURCES})
     add_library(Slabhull::${name} ALIAS ${target})
@@ -40,11 +41,14 @@ function(slabhull_room name)
     target_include_directories(${target} PUBLIC
         $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
     target_link_libraries(${target} PUBLIC slabhull_settings PRIVATE $<BUILD_INTERFACE:slabhull_warnings>)
     foreach(used IN LISTS room_USES)
         target_link_libraries(${target} PUBLIC slabhull_${used})
     endforeach()
     target_link_libraries(${target} PRIVATE ${room_LINKS})
-    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-    install(TARGETS ${target} EXPORT SlabhullTargets)
+    if(NOT room_NOT_INSTALLED)
+        install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+        install(TARGETS ${target} EXPORT SlabhullTargets)
+    endif()
 endfunction()

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.h"
 
+#include "slabhull/cases/run.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/stopwatch.h"
-#include "slabhull/slab/run.h"
 
 #include <filesystem>
 #include <fmt/format.h>

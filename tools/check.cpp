@@ -2,11 +2,11 @@
 #include "commands.h"
 
 #include "mesh_formats.h"
+#include "slabhull/cases/hull_files.h"
+#include "slabhull/cases/report.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/slab/check_embedding.h"
-#include "slabhull/slab/hull_files.h"
-#include "slabhull/slab/report.h"
 #include "slabhull/topology/homology.h"
 
 #include <fmt/format.h>
@@ -76,9 +76,9 @@ int tell(const CheckCommand& command, const Report& report,
          const std::optional<EmbeddingSummary>& embedding = std::nullopt) {
     if (command.json) {
         nlohmann::ordered_json json{{"file", command.file}};
-        json.update(as_json(report));
+        json.update(nlohmann::ordered_json::parse(report_as_json(report)));
         if (embedding) {
-            json["embedding"] = as_json(*embedding);
+            json["embedding"] = nlohmann::ordered_json::parse(report_as_json(*embedding));
         }
         fmt::print("{}\n", json.dump(2));
     } else {

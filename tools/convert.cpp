@@ -3,8 +3,8 @@
 
 #include "mesh_formats.h"
 #include "slabhull/core/error.h"
-#include "slabhull/slab/soup_edit.h"
-#include "slabhull/slab/soup_numbers.h"
+#include "slabhull/edit/soup_edit.h"
+#include "slabhull/edit/soup_numbers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "commands.h"
 
 #include "mesh_formats.h"
-#include "slabhull/slab/soup_info.h"
+#include "slabhull/edit/soup_info.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.h"
 
+#include "slabhull/cases/run.h"
 #include "slabhull/core/error.h"
-#include "slabhull/slab/run.h"
 
 #include <csignal>
 #include <fmt/format.h>

@@ -2,10 +2,10 @@
 #include "commands.h"
 
 #include "mesh_formats.h"
+#include "slabhull/cases/hull_files.h"
+#include "slabhull/cases/report.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
-#include "slabhull/slab/hull_files.h"
-#include "slabhull/slab/report.h"
 #include "slabhull/slab/slice.h"
 
 #include <algorithm>
@@ -228,7 +228,7 @@ private:
     void print_json() const {
         nlohmann::ordered_json sections = nlohmann::ordered_json::array();
         for (const Written& section : sections_) {
-            auto json = as_json(section.report, section.patches);
+            auto json = nlohmann::ordered_json::parse(report_as_json(section.report, section.patches));
             json["hull"] = section.hull;
             json["file"] = section.path.string();
             sections.push_back(std::move(json));

@@ -6,7 +6,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/io/atomic_file.h"
-#include "slabhull/slab/study.h"
+#include "slabhull/study/study.h"
 
 #include <algorithm>
 #include <charconv>

@@ -5,9 +5,10 @@
 #include "slabhull/slab/check.h"
 #include "../growth.h"
 #include "../memory.h"
+#include "slabhull/cases/initial.h"
+#include "slabhull/cases/settings.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/stopwatch.h"
-#include "slabhull/slab/initial.h"
 #include "slabhull/slab/slab.h"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors and orders of the paper's two turning cases by scheme, substeps and projection: the table of
 // docs/trajectories.md, a line of JSON for each movement and measure.
-#include "slab/order_study.h"
+#include "study/order_study.h"
 
 #include <cstdio>
 

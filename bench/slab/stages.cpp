@@ -3,8 +3,8 @@
 // two caps. Hulls of the turning ellipsoid that are mostly caps, by turns; a line of JSON per run, medians at
 // the end. A run counts only when the hull's check found nothing and its file was written.
 //     bench_slab_stages [MILLIONS_OF_TETRAHEDRA [ROUNDS [FOLDER]]]
+#include "slabhull/cases/run.h"
 #include "slabhull/core/stopwatch.h"
-#include "slabhull/slab/run.h"
 
 #include <nlohmann/json.hpp>
 

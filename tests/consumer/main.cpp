@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Builds the first level of the paper's circle through the installed library.
+#include <slabhull/cases/case.h>
+#include <slabhull/cases/run.h>
 #include <slabhull/core/message.h>
-#include <slabhull/slab/case.h>
-#include <slabhull/slab/run.h>
 
 #include <iostream>
 

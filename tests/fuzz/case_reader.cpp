@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fuzz/harness.h"
-#include "slabhull/slab/case.h"
+#include "slabhull/cases/case.h"
 
 #include <algorithm>
 #include <cmath>

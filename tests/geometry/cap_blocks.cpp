@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../geometry/cap_blocks.h"
-#include "../../geometry/domain_blocks.h"
-#include "../../geometry/domain_load.h"
-#include "../../geometry/sliver_repair.h"
-#include "../../geometry/surface_division.h"
+#include "geometry/meshing/cap_blocks.h"
+#include "geometry/meshing/domain_blocks.h"
+#include "geometry/meshing/domain_load.h"
+#include "geometry/meshing/sliver_repair.h"
+#include "geometry/meshing/surface_division.h"
 #include "rooms.h"
 
 #include "slabhull/core/error.h"

@@ -16,15 +16,6 @@ using namespace slabhull;
 
 namespace {
 
-template<std::size_t N>
-double distance(const std::array<double, N>& a, const std::array<double, N>& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < N; ++k) {
-        sum += (a[k] - b[k]) * (a[k] - b[k]);
-    }
-    return std::sqrt(sum);
-}
-
 std::vector<Measures<3>> measure_groups(std::span<const Point<4>> points, std::span<const Simplex<3>> cells,
                                         std::span<const std::uint8_t> group, std::size_t group_count) {
     std::vector<MeasureSums<3>> sums(group_count);

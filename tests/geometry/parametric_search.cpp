@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../geometry/parametric_search.h"
+#include "geometry/projection/parametric_search.h"
 
 #include "geometry/random_points.h"
 

@@ -2,10 +2,10 @@
 // Memory of writers and readers, measured in child processes, and files beyond 4 GiB and 2^31 entries, of
 // which only what matters is stored: files with holes, and a write() that counts.
 #include "io/scratch.h"
+#include "io/vtk/vtu_payload.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/io/files.h"
-#include "vtu_payload.h"
 
 #include <atomic>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../io/rehearsal.h"
+#include "io/xdmf/rehearsal.h"
 
 #include "core/no_more_files.h"
 

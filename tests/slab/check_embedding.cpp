@@ -3,9 +3,9 @@
 
 #include "geometry/simplex_judge.h"
 #include "slab/specimens.h"
+#include "slabhull/cases/report.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/geometry/hull_embedding.h"
-#include "slabhull/slab/report.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -172,8 +172,8 @@ TEMPLATE_TEST_CASE_SIG("bodies that meet between levels are findings with number
         }
         CHECK_THAT(finding.text, Contains(" meet at t = 1."));
     }
-    CHECK(as_json(*embedding)["crossings"] == embedding->crossings);
-    CHECK(as_json(report)["defects"]["self-crossing"] == embedding->crossings);
+    CHECK(nlohmann::json::parse(report_as_json(*embedding))["crossings"] == embedding->crossings);
+    CHECK(nlohmann::json::parse(report_as_json(report))["defects"]["self-crossing"] == embedding->crossings);
 }
 
 TEST_CASE("the findings are the same for any number of threads", "[embedding]") {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/march.h"
+#include "slabhull/cases/settings.h"
 
+#include "slabhull/cases/initial.h"
 #include "slabhull/core/error.h"
 #include "slabhull/slab/check.h"
-#include "slabhull/slab/initial.h"
 #include "slabhull/slab/tangling.h"
 
 #include <algorithm>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/slab.h"
+#include "slabhull/cases/settings.h"
 
+#include "slabhull/cases/initial.h"
 #include "slabhull/core/error.h"
 #include "slabhull/slab/check.h"
-#include "slabhull/slab/initial.h"
 #include "slabhull/topology/homology.h"
 
 #include <catch2/catch.hpp>

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/slice.h"
+#include "slabhull/cases/settings.h"
 
 #include "slab/swept_grid.h"
+#include "slabhull/cases/hull_files.h"
+#include "slabhull/cases/initial.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/io/files.h"
-#include "slabhull/slab/exact_measures.h"
-#include "slabhull/slab/hull_files.h"
-#include "slabhull/slab/initial.h"
 #include "slabhull/slab/slab.h"
+#include "slabhull/study/exact_measures.h"
 
 #include "io/scratch.h"
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/stitch.h"
+#include "slabhull/cases/settings.h"
 
+#include "slab/swept_grid.h"
+#include "slabhull/cases/case.h"
+#include "slabhull/cases/initial.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
-#include "slabhull/slab/case.h"
 #include "slabhull/slab/check.h"
-#include "slabhull/slab/initial.h"
 #include "slabhull/slab/slab.h"
 #include "slabhull/topology/homology.h"
-#include "swept_grid.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

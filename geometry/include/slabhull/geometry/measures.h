@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "slabhull/core/point.h"
+#include "slabhull/core/vector.h"
+#include "slabhull/topology/spatial_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -169,5 +170,27 @@ extern template class MeasureSums<2>;
 extern template class MeasureSums<3>;
 extern template SolidMeasures measure_solid<2>(std::span<const Point<2>>, std::span<const Simplex<2>>);
 extern template SolidMeasures measure_solid<3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
+
+/// Measure of a D-simplex in R^N; N is D or D + 1, for edges anything.
+template<int D, int N>
+double simplex_measure(const std::array<Point<N>, D + 1>& corners) {
+    if constexpr (N == D) {
+        return std::abs(signed_measure<D>(corners));
+    } else {
+        Point<N> normal{};
+        if constexpr (D == 1) {
+            for (std::size_t k = 0; k < N; ++k) {
+                normal[k] = corners[1][k] - corners[0][k]; // as long as a normal
+            }
+        } else {
+            normal = simplex_normal<D>(corners);
+        }
+        return norm(normal);
+    }
+}
+
+/// Signed measure on the inner side of some facets of a surface: positive when their normals leave it.
+template<int D>
+double enclosed_by(const Surface<D>& surface, std::span<const Index> facets);
 
 } // namespace slabhull

@@ -106,6 +106,9 @@ struct CheckResult {
     bool clean() const { return total() == 0; }
 };
 
+/// The findings as lines for a person, kind by kind, with what was left out counted.
+std::string findings_as_text(const CheckResult& result);
+
 /// A hull as a file may tell it: points and cells, and claims that need not be given.
 /// What it refers to must outlive it.
 template<int D>

@@ -4,7 +4,6 @@
 #include "slabhull/slab/check.h"
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 namespace slabhull {
@@ -27,9 +26,6 @@ struct EmbeddingSummary {
 template<int D>
 std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, const CheckOptions& options,
                                                 HullReport& report);
-
-/// The summary as a JSON object; keys are those of the struct.
-nlohmann::ordered_json as_json(const EmbeddingSummary& summary);
 
 extern template std::optional<EmbeddingSummary> check_embedding<2>(const HullColumns<2>&, const CheckOptions&,
                                                                    HullReport&);

@@ -2,14 +2,20 @@
 #pragma once
 
 #include "slabhull/geometry/cap_mesher.h"
-#include "slabhull/slab/case.h"
-#include "slabhull/slab/displacement_match.h"
 #include "slabhull/slab/stage_clock.h"
 #include "slabhull/slab/stitch.h"
 #include "slabhull/slab/sweep.h"
 #include "slabhull/topology/hull.h"
 
+#include <map>
+#include <optional>
+#include <vector>
+
 namespace slabhull {
+
+/// Where the terminating cap of a slab comes from: meshed anew, or the initial one with its vertices moved as
+/// long as its cells stay good (geometry/cap_motion.h).
+enum class CapReuse { none, move };
 
 /// What all slabs of a march share.
 template<int D>
@@ -21,7 +27,6 @@ struct SlabSettings {
     CapOptions cap;
     CapReuse reuse = CapReuse::none;
     double reuse_angle = 5; ///< degrees: a moved cap with a smaller one is meshed anew
-    std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move as files of displacements say
 };
 
 /// One slab: its hull, which ends with the cap that the next one starts from.
@@ -38,15 +43,6 @@ struct Slab {
     /// A copy, made from the hull.
     SpatialMesh<D> terminating() const { return terminating_cap_of<D>(hull, terminating_facets); }
 };
-
-/// How a case wants its caps meshed.
-CapOptions cap_options(const Case& the_case);
-
-/// The settings that a case gives, for a domain with the given boundary when its motion starts, whose
-/// vertices have the tracks 0, 1 .. in order. Throws UsageError for a motion or projection of a patch that
-/// there is not, UsageError and InputError for what is wrong with the files of motions.
-template<int D>
-SlabSettings<D> settings_of(const Case& the_case, const Surface<D>& start);
 
 /// Builds slab `number` over the levels `times` on the initial cap: the seven steps of the method. The hull
 /// is not checked as a whole (check_hull() does); the boundary is, on every level, and so is the terminating

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/cases/case.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/io/checksum.h"
+
+#include "cases/case/key_table.h"
+#include "cases/case/motion_keys.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
+
+namespace slabhull {
+
+namespace {
+
+constexpr int most_layers = 1'000'000;
+constexpr int most_pieces = 1'000'000;
+constexpr std::array<const char*, 3> hull_formats{"vtu", "pvtu", "msh"};
+
+/// Turns the tables of a case file into a Case. Each method reads one table.
+class CaseReader {
+public:
+    CaseReader(KeyTable root, std::filesystem::path directory)
+        : root_{std::move(root)}, directory_{std::move(directory)} {}
+
+    Case run() {
+        read_general();
+        read_time();
+        read_patches();
+        read_trajectory();
+        read_side();
+        read_cap();
+        read_output();
+        root_.require_all_known();
+        return std::move(case_);
+    }
+
+private:
+    void read_general() {
+        KeyTable initial = root_.table("initial");
+        if (const auto name = initial.optional_text("experiment")) {
+            read_experiment(initial, *name);
+        } else {
+            case_.dimension = root_.integer("dimension", 2, 3);
+            case_.split = case_.dimension == 3 ? Split::C : Split::centre;
+            read_initial(initial);
+        }
+        case_.title = root_.optional_text("title").value_or(case_.title);
+        initial.require_all_known();
+    }
+
+    void read_experiment(KeyTable& initial, const std::string& name) {
+        for (const char* other : {"mesh", "surfaces", "curves", "box", "outer"}) {
+            if (initial.has(other)) {
+                initial.fail(other, "nothing beside \"experiment\"");
+            }
+        }
+        const int level = initial.has("level") ? initial.integer("level", 1, 99) : 1;
+        try {
+            case_ = experiment_case(name, level);
+        } catch (const UsageError& error) {
+            initial.fail("experiment", error.what());
+        }
+        if (root_.has("dimension")) {
+            root_.integer("dimension", case_.dimension, case_.dimension);
+        }
+    }
+
+    void read_initial(KeyTable& initial) {
+        const char* bodies = case_.dimension == 3 ? "surfaces" : "curves";
+        if (initial.has("mesh")) {
+            if (initial.has(bodies)) {
+                initial.fail(bodies,
+                             "exactly one of \"mesh\", \"surfaces\" or \"curves\", and \"experiment\"");
+            }
+            case_.initial = InitialMesh{directory_ / initial.text("mesh")};
+            return;
+        }
+        InitialBodies parts;
+        for (KeyTable& body : initial.optional_tables(bodies)) {
+            parts.files.push_back(read_body(body, nullptr));
+        }
+        if (initial.has("box") == initial.has("outer")) {
+            initial.fail(
+                "box",
+                fmt::format("\"mesh\", \"experiment\", or {} with exactly one of \"box\" and \"outer\"",
+                            bodies));
+        }
+        if (initial.has("box")) {
+            parts.outer = read_box(initial.table("box"));
+        } else {
+            KeyTable outer = initial.table("outer");
+            parts.outer = read_body(outer, "walls");
+        }
+        case_.initial = std::move(parts);
+    }
+
+    BodyFile read_body(KeyTable& table, const char* default_patch) {
+        BodyFile body{directory_ / table.text("file"), {}};
+        body.patch = default_patch != nullptr ? table.optional_text("patch").value_or(default_patch)
+                                              : table.text("patch");
+        table.require_all_known();
+        return body;
+    }
+
+    BoxSpec read_box(KeyTable table) {
+        BoxSpec box;
+        box.min = table.numbers("min", case_.dimension);
+        box.max = table.numbers("max", case_.dimension);
+        box.size = table.positive("size");
+        box.patch = table.optional_text("patch").value_or(box.patch);
+        for (std::size_t k = 0; k < box.min.size(); ++k) {
+            if (!(box.min[k] < box.max[k])) {
+                table.fail("max", "each entry above that of \"min\"");
+            }
+        }
+        table.require_all_known();
+        return box;
+    }
+
+    void read_time() {
+        KeyTable time = root_.optional_table("time");
+        case_.start = time.number_or("start", case_.start);
+        case_.end = time.number_or("end", case_.end);
+        if (!(case_.start < case_.end)) {
+            time.fail("end", "a time after \"start\"");
+        }
+        if (time.has("slabs")) {
+            case_.slabs = time.integer("slabs", 1, 100'000'000);
+        }
+        if (time.has("layers") && time.has("spacing")) {
+            time.fail("spacing", "one of \"layers\" and \"spacing\"");
+        }
+        if (time.has("layers")) {
+            case_.layers = time.integer("layers", 1, most_layers);
+            case_.spacing.reset();
+        } else if (time.has("spacing")) {
+            case_.spacing = time.positive("spacing");
+            case_.layers.reset();
+            if ((case_.end - case_.start) / case_.slabs > most_layers * *case_.spacing) {
+                time.fail("spacing",
+                          fmt::format("a spacing that makes at most {} layers in a slab", most_layers));
+            }
+        }
+        require_distinct_levels(time);
+        read_adapt(time);
+        time.require_all_known();
+    }
+
+    void require_distinct_levels(KeyTable& time) const {
+        const double duration = case_.end - case_.start;
+        if (!std::isfinite(duration)) {
+            time.fail("end", "a finite duration since \"start\"");
+        }
+        const double slab = duration / case_.slabs;
+        const double layers =
+            case_.spacing ? std::max(1.0, std::ceil(slab / *case_.spacing)) : case_.layers.value_or(1);
+        const double rounding =
+            std::numeric_limits<double>::epsilon() * std::max(std::abs(case_.start), std::abs(case_.end));
+        if (!(slab / layers > 4 * rounding)) {
+            time.fail("end", "a time so long after \"start\" that rounding leaves no two levels at one time");
+        }
+    }
+
+    void read_adapt(KeyTable& time) {
+        if (time.has("adapt")) {
+            case_.adapt = time.boolean("adapt");
+        }
+        if (time.has("adapt_floor")) {
+            case_.adapt_floor = time.positive("adapt_floor");
+            if (case_.adapt_floor > 1) {
+                time.fail("adapt_floor", "a part of a slab's duration, at most 1");
+            }
+        }
+    }
+
+    void read_patches() {
+        const PatchKeysContext context{case_.dimension, case_.end - case_.start, directory_};
+        KeyTable motions = root_.optional_table("motion");
+        for (const std::string& patch : motions.keys()) {
+            case_.motions[patch] = read_motion(motions.table(patch), context);
+        }
+        KeyTable projections = root_.optional_table("project");
+        for (const std::string& patch : projections.keys()) {
+            case_.projections[patch] = read_projection(projections.table(patch), context);
+            const auto motion = case_.motions.find(patch);
+            if (motion != case_.motions.end() &&
+                motion->second.kind == MotionSpec::Kind::displacement_series) {
+                projections.fail(patch, "no projection of a patch whose motion is a displacement-series, for "
+                                        "nothing says how the surface would move");
+            }
+        }
+    }
+
+    void read_trajectory() {
+        KeyTable table = root_.optional_table("trajectory");
+        if (const auto name = table.optional_text("scheme")) {
+            try {
+                case_.trajectory.scheme = scheme_from_name(*name);
+            } catch (const UsageError& error) {
+                table.fail("scheme", error.what());
+            }
+        }
+        if (table.has("substeps")) {
+            case_.trajectory.substeps = table.integer("substeps", 1, 1'000'000);
+        }
+        if (table.has("tolerance")) {
+            case_.trajectory.tolerance = table.positive("tolerance");
+        }
+        table.require_all_known();
+    }
+
+    void read_side() {
+        KeyTable table = root_.optional_table("side");
+        if (const auto name = table.optional_text("split")) {
+            try {
+                case_.split = split_from_name(*name, case_.dimension);
+            } catch (const UsageError& error) {
+                table.fail("split", error.what());
+            }
+        }
+        if (table.has("diagonals")) {
+            case_.diagonals = table.choice<Diagonals>(
+                "diagonals", {{"shape", Diagonals::shape}, {"smallest-id", Diagonals::smallest_id}});
+        }
+        table.require_all_known();
+    }
+
+    void read_cap() {
+        KeyTable table = root_.optional_table("cap");
+        read_cap_mesher(table);
+        if (table.has("size")) {
+            case_.cap_size = table.positive("size");
+        }
+        if (table.has("growth")) {
+            case_.cap_growth = table.positive("growth");
+        }
+        if (table.has("quality")) {
+            case_.cap_quality = table.number("quality");
+            if (!(case_.cap_quality >= 1)) {
+                table.fail("quality", "a radius-edge bound of at least 1");
+            }
+        }
+        if (table.has("order")) {
+            case_.cap_curve_order = table.choice<bool>("order", {{"mesher", false}, {"curve", true}});
+        }
+        read_cap_reuse(table);
+        table.require_all_known();
+    }
+
+    void read_cap_mesher(KeyTable& table) {
+        if (table.has("mesher") && case_.dimension == 2) {
+            table.choice<int>("mesher", {{"cdt", 0}});
+        } else if (table.has("mesher")) {
+            case_.cap_mesher = table.choice<SolidMesher>(
+                "mesher", {{"tetgen", SolidMesher::tetgen}, {"hxt", SolidMesher::hxt}});
+            if (!has_mesher(case_.cap_mesher)) {
+                table.fail("mesher", "a mesher that this build has; configure it with -DSLABHULL_GMSH=ON for "
+                                     "\"hxt\" and -DSLABHULL_TETGEN=ON for \"tetgen\"");
+            }
+        }
+        if (table.has("blocks")) {
+            if (case_.dimension == 2) {
+                table.fail("blocks", "nothing for dimension = 2, where a cap is meshed in one piece");
+            }
+            case_.cap_blocks = table.integer("blocks", 1, 4096);
+        }
+    }
+
+    void read_cap_reuse(KeyTable& table) {
+        if (table.has("reuse")) {
+            case_.cap_reuse =
+                table.choice<CapReuse>("reuse", {{"none", CapReuse::none}, {"move", CapReuse::move}});
+        }
+        // Two thirds and less of what the meshers give at worst: 7 degrees for D = 3, and 20.
+        case_.cap_reuse_angle = table.number_or("reuse_angle", case_.dimension == 3 ? 5 : 10);
+        if (!(case_.cap_reuse_angle >= 0 && case_.cap_reuse_angle <= 60)) {
+            table.fail("reuse_angle", "an angle from 0 to 60 degrees");
+        }
+    }
+
+    void read_output() {
+        KeyTable table = root_.optional_table("output");
+        const auto directory = table.optional_text("directory");
+        case_.directory = directory_ / directory.value_or(case_.directory.string());
+        if (table.has("formats")) {
+            case_.formats = read_formats(table);
+        }
+        for (const char* format : hull_formats) {
+            read_writing(table.optional_table(format), format);
+        }
+        if (table.has("pieces")) {
+            read_pieces(table);
+        }
+        table.require_all_known();
+    }
+
+    static std::vector<std::string> read_formats(KeyTable& table) {
+        std::vector<std::string> formats;
+        for (const std::string& format : table.texts("formats", -1)) {
+            if (std::find(hull_formats.begin(), hull_formats.end(), format) == hull_formats.end()) {
+                table.fail("formats",
+                           fmt::format("\"{}\", not \"{}\"", fmt::join(hull_formats, "\", \""), format));
+            }
+            if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
+                formats.push_back(format);
+            }
+        }
+        return formats;
+    }
+
+    /// Every format, as it is to be written, must have pieces.
+    void read_pieces(KeyTable& table) {
+        const auto pieces = static_cast<std::size_t>(table.integer("pieces", 1, most_pieces));
+        for (const std::string& format : case_.formats) {
+            case_.writing[format].pieces = pieces;
+            try {
+                io::require_offered(*io::format_named(format), case_.writing[format], "");
+            } catch (const UsageError& error) {
+                table.fail("pieces", fmt::format("formats that have them ({})", error.what()));
+            }
+        }
+    }
+
+    /// How files of a format are written: [output.msh] version = "2.2".
+    void read_writing(KeyTable table, const char* format) {
+        const io::Offers& offers = io::format_named(format)->offers;
+        const auto one_of = [&](const char* key, const std::vector<std::string_view>& offered) {
+            const std::string chosen = table.optional_text(key).value_or("");
+            if (!chosen.empty() && std::find(offered.begin(), offered.end(), chosen) == offered.end()) {
+                table.fail(key,
+                           fmt::format("one of \"{}\", not \"{}\"", fmt::join(offered, "\", \""), chosen));
+            }
+            return chosen;
+        };
+        io::WriteOptions& writing = case_.writing[format];
+        writing.encoding = one_of("encoding", offers.encodings);
+        if (offers.versions.size() > 1) {
+            writing.version = one_of("version", offers.versions);
+        }
+        table.require_all_known();
+    }
+
+    KeyTable root_;
+    std::filesystem::path directory_;
+    Case case_;
+};
+
+} // namespace
+
+Case read_case(const std::filesystem::path& path) {
+    Case the_case = CaseReader{KeyTable::parse_file(path), path.parent_path()}.run();
+    the_case.checksum = io::checksum_of(path);
+    return the_case;
+}
+
+double Case::slab_begin(int slab) const {
+    return slab == slabs ? end : start + (end - start) * slab / static_cast<double>(slabs);
+}
+
+double Case::slab_end(double time) const {
+    const double passed = std::floor((time - start) / (end - start) * slabs);
+    int slab = std::max(0, static_cast<int>(std::min(passed, slabs - 1.0)) - 1);
+    while (slab + 1 < slabs && !(slab_begin(slab + 1) > time)) {
+        ++slab; // rounding may have put us a slab off
+    }
+    return slab_begin(slab + 1);
+}
+
+std::vector<double> Case::level_times(double begin, double end_of_slab) const {
+    const double duration = end_of_slab - begin;
+    // A spacing that divides the duration up to rounding does so exactly.
+    const double wanted = spacing ? std::max(1.0, std::ceil(duration / *spacing - 1e-9)) : layers.value_or(1);
+    std::vector<double> times;
+    for (double layer = 0; layer < wanted; ++layer) {
+        times.push_back(begin + duration * layer / wanted);
+    }
+    times.push_back(end_of_slab);
+    return times;
+}
+
+} // namespace slabhull

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/case/key_table.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/core/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <set>
+#include <toml++/toml.h>
+
+namespace slabhull {
+
+struct KeyTable::Node {
+    std::shared_ptr<const toml::table> root; ///< keeps the document alive
+    const toml::table* table;
+    std::string file;
+    std::string name; ///< "motion.flange", empty for the document
+    std::set<std::string> known{};
+
+    const toml::node* find(const std::string& key) {
+        known.insert(key);
+        return table->get(key);
+    }
+    std::string full_name(const std::string& key) const { return name.empty() ? key : name + "." + key; }
+};
+
+namespace {
+
+std::string read_all(const std::filesystem::path& path) {
+    std::ifstream file{path, std::ios::binary};
+    if (!file || std::filesystem::is_directory(path)) {
+        throw InputError(fmt::format("{}: cannot be read", path.string()));
+    }
+    return {std::istreambuf_iterator<char>{file}, {}};
+}
+
+/// Levenshtein's distance.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+} // namespace
+
+KeyTable::KeyTable(std::shared_ptr<Node> node) : node_{std::move(node)} {}
+
+KeyTable KeyTable::parse_file(const std::filesystem::path& path) {
+    const std::string text = read_all(path);
+    try {
+        auto root = std::make_shared<const toml::table>(toml::parse(text));
+        const toml::table* table = root.get();
+        return KeyTable{std::make_shared<Node>(Node{std::move(root), table, path.string(), ""})};
+    } catch (const toml::parse_error& error) {
+        throw UsageError(fmt::format("{}: line {}: {}", path.string(), error.source().begin.line,
+                                     readable(error.description())));
+    }
+}
+
+bool KeyTable::has(const std::string& key) const {
+    return node_->find(key) != nullptr;
+}
+
+std::vector<std::string> KeyTable::keys() const {
+    std::vector<std::string> names;
+    for (const auto& [key, value] : *node_->table) {
+        names.emplace_back(key.str());
+    }
+    return names;
+}
+
+void KeyTable::fail(const std::string& key, const std::string& expected) const {
+    const toml::node* at = node_->table->get(key);
+    const auto line = at != nullptr ? at->source().begin.line : node_->table->source().begin.line;
+    throw UsageError(fmt::format("{}: line {}: {}: {}expected {}", node_->file, line,
+                                 readable(node_->full_name(key)), at == nullptr ? "missing; " : "",
+                                 readable(expected)));
+}
+
+void KeyTable::require_all_known() const {
+    for (const auto& [key, value] : *node_->table) {
+        const std::string name{key.str()};
+        if (node_->known.contains(name)) {
+            continue;
+        }
+        std::string message = fmt::format("{}: line {}: unknown key \"{}\"", node_->file,
+                                          key.source().begin.line, readable(node_->full_name(name)));
+        const auto nearest = std::min_element(node_->known.begin(), node_->known.end(),
+                                              [&name](const std::string& a, const std::string& b) {
+                                                  return edit_distance(a, name) < edit_distance(b, name);
+                                              });
+        if (nearest != node_->known.end()) {
+            message += fmt::format("; the nearest known key is \"{}\"", readable(node_->full_name(*nearest)));
+        }
+        throw UsageError(message);
+    }
+}
+
+std::string KeyTable::text(const std::string& key) {
+    const toml::node* node = node_->find(key);
+    if (node == nullptr || !node->is_string()) {
+        fail(key, "a text");
+    }
+    return node->as_string()->get();
+}
+
+std::optional<std::string> KeyTable::optional_text(const std::string& key) {
+    return has(key) ? std::optional{text(key)} : std::nullopt;
+}
+
+bool KeyTable::boolean(const std::string& key) {
+    const toml::node* node = node_->find(key);
+    if (node == nullptr || !node->is_boolean()) {
+        fail(key, "true or false");
+    }
+    return node->as_boolean()->get();
+}
+
+int KeyTable::integer(const std::string& key, int smallest, int largest) {
+    const toml::node* node = node_->find(key);
+    const std::string expected = smallest == largest
+                                     ? fmt::format("{}", smallest)
+                                     : fmt::format("a whole number from {} to {}", smallest, largest);
+    if (node == nullptr || !node->is_integer()) {
+        fail(key, expected);
+    }
+    const std::int64_t value = node->as_integer()->get();
+    if (value < smallest || value > largest) {
+        fail(key, fmt::format("{}, not {}", expected, value));
+    }
+    return static_cast<int>(value);
+}
+
+double KeyTable::number(const std::string& key) {
+    const toml::node* node = node_->find(key);
+    if (node == nullptr || !node->is_number()) {
+        fail(key, "a number");
+    }
+    const double value = *node->value<double>();
+    if (!std::isfinite(value)) {
+        fail(key, "a finite number");
+    }
+    return value;
+}
+
+double KeyTable::number_or(const std::string& key, double otherwise) {
+    return has(key) ? number(key) : otherwise;
+}
+
+double KeyTable::positive(const std::string& key) {
+    const double value = number(key);
+    if (!(value > 0)) {
+        fail(key, fmt::format("a positive number, not {}", value));
+    }
+    return value;
+}
+
+std::vector<double> KeyTable::numbers(const std::string& key, int count) {
+    const std::string expected =
+        count < 0 ? "a list of finite numbers" : fmt::format("a list of {} finite numbers", count);
+    const toml::node* node = node_->find(key);
+    if (node == nullptr || !node->is_array() ||
+        (count >= 0 && node->as_array()->size() != static_cast<std::size_t>(count))) {
+        fail(key, expected);
+    }
+    std::vector<double> values;
+    for (const toml::node& entry : *node->as_array()) {
+        const auto value = entry.value<double>();
+        if (!entry.is_number() || !value || !std::isfinite(*value)) {
+            fail(key, expected);
+        }
+        values.push_back(*value);
+    }
+    return values;
+}
+
+std::vector<double> KeyTable::positives(const std::string& key, int count) {
+    std::vector<double> values = numbers(key, count);
+    if (std::any_of(values.begin(), values.end(), [](double value) { return !(value > 0); })) {
+        fail(key, "positive numbers");
+    }
+    return values;
+}
+
+std::vector<double> KeyTable::direction(const std::string& key, int count) {
+    std::vector<double> values = numbers(key, count);
+    if (std::all_of(values.begin(), values.end(), [](double value) { return value == 0; })) {
+        fail(key, "a direction, not the zero vector");
+    }
+    return values;
+}
+
+std::vector<std::string> KeyTable::texts(const std::string& key, int count) {
+    const std::string expected = count < 0 ? "a list of texts" : fmt::format("a list of {} texts", count);
+    const toml::node* node = node_->find(key);
+    if (node == nullptr || !node->is_array() ||
+        (count >= 0 && node->as_array()->size() != static_cast<std::size_t>(count))) {
+        fail(key, expected);
+    }
+    std::vector<std::string> values;
+    for (const toml::node& entry : *node->as_array()) {
+        if (!entry.is_string()) {
+            fail(key, expected);
+        }
+        values.push_back(entry.as_string()->get());
+    }
+    return values;
+}
+
+std::map<std::string, double> KeyTable::optional_constants(const std::string& key) {
+    std::map<std::string, double> constants;
+    KeyTable inner = optional_table(key);
+    for (const std::string& name : inner.keys()) {
+        constants[name] = inner.number(name);
+    }
+    return constants;
+}
+
+KeyTable KeyTable::table(const std::string& key) {
+    const toml::node* node = node_->find(key);
+    if (node == nullptr || !node->is_table()) {
+        fail(key, "a table");
+    }
+    return KeyTable{
+        std::make_shared<Node>(Node{node_->root, node->as_table(), node_->file, node_->full_name(key)})};
+}
+
+KeyTable KeyTable::optional_table(const std::string& key) {
+    if (has(key)) {
+        return table(key);
+    }
+    auto empty = std::make_shared<const toml::table>();
+    const toml::table* inside = empty.get();
+    return KeyTable{
+        std::make_shared<Node>(Node{std::move(empty), inside, node_->file, node_->full_name(key)})};
+}
+
+std::vector<KeyTable> KeyTable::optional_tables(const std::string& key) {
+    std::vector<KeyTable> tables;
+    const toml::node* node = node_->find(key);
+    if (node == nullptr) {
+        return tables;
+    }
+    if (!node->is_array()) {
+        fail(key, "a list of tables");
+    }
+    for (const toml::node& entry : *node->as_array()) {
+        if (!entry.is_table()) {
+            fail(key, "a list of tables");
+        }
+        const std::string name = fmt::format("{}[{}]", node_->full_name(key), tables.size());
+        tables.push_back(
+            KeyTable{std::make_shared<Node>(Node{node_->root, entry.as_table(), node_->file, name})});
+    }
+    return tables;
+}
+
+} // namespace slabhull

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a case says, turned into what a march needs: motions and surfaces of the patches that the domain has.
+#include "slabhull/cases/settings.h"
+
+#include "cases/case/patch_motions.h"
+#include "cases/tables/displacement_files.h"
+#include "slabhull/core/error.h"
+
+#include <fmt/format.h>
+#include <numeric>
+#include <set>
+
+namespace slabhull {
+
+namespace {
+
+PatchNumber number_of(const PatchList& patches, const std::string& name, const char* table) {
+    const PatchNumber number = patch_number(patches, name);
+    if (number == 0) {
+        std::string known;
+        for (const Patch& patch : patches) {
+            known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", patch.name);
+        }
+        throw UsageError(
+            fmt::format("[{}.{}]: the domain has no patch \"{}\"; it has {}", table, name, name, known));
+    }
+    return number;
+}
+
+template<int D>
+class SettingsMaker {
+public:
+    SettingsMaker(const Case& the_case, const Surface<D>& start) : case_{the_case}, start_{start} {}
+
+    CaseSettings<D> run() {
+        settings_.motion_start = case_.start;
+        settings_.trajectory = case_.trajectory;
+        settings_.side = {case_.split, case_.diagonals};
+        settings_.cap = cap_options(case_);
+        settings_.reuse = case_.cap_reuse;
+        settings_.reuse_angle = case_.cap_reuse_angle;
+        for (const auto& [patch, spec] : case_.motions) {
+            const PatchNumber number = number_of(start_.patches, patch, "motion");
+            try {
+                add_motion(number, spec);
+            } catch (const UsageError& error) {
+                throw UsageError(fmt::format("[motion.{}]: {}", patch, error.what()));
+            }
+        }
+        stretch();
+        for (const auto& [patch, spec] : case_.projections) {
+            add_projection(patch, spec);
+        }
+        return {std::move(settings_), std::move(matches_)};
+    }
+
+private:
+    void add_motion(PatchNumber number, const MotionSpec& spec) {
+        MovingPatch<D>& moving = settings_.motions[number];
+        if (spec.is_field()) {
+            moving.motion = motion_of<D>(spec, case_);
+        } else if (spec.kind == MotionSpec::Kind::stretch) {
+            stretching_.insert(number);
+        } else {
+            std::vector<TrackId> tracks(start_.points.size());
+            std::iota(tracks.begin(), tracks.end(), 0);
+            DisplacementFiles<D> files = read_displacement_files<D>(spec.displacements, start_, tracks,
+                                                                    number, {case_.start, case_.end});
+            moving.nodal = std::move(files.motion);
+            matches_[number] = std::move(files.match);
+        }
+    }
+
+    void stretch() {
+        if (stretching_.empty()) {
+            return;
+        }
+        const StretchPointer<D> stretch = harmonic_stretch(start_, stretching_);
+        for (const PatchNumber number : stretching_) {
+            settings_.motions[number].stretch = stretch;
+        }
+    }
+
+    void add_projection(const std::string& patch, const ProjectionSpec& spec) {
+        MovingPatch<D>& moving = settings_.motions[number_of(start_.patches, patch, "project")];
+        if (moving.motion == nullptr && moving.stretch == nullptr) {
+            moving.motion = standing<D>();
+        }
+        moving.surface = projection_of<D>(spec);
+        if (moving.motion != nullptr && !moving.motion->map(case_.start, case_.end)) {
+            throw UsageError(fmt::format(
+                "[project.{}]: a projection surface moves with its patch's motion, and a velocity "
+                "formula does not say how a surface moves",
+                patch));
+        }
+    }
+
+    const Case& case_;
+    const Surface<D>& start_;
+    SlabSettings<D> settings_;
+    std::map<PatchNumber, DisplacementMatch> matches_;
+    std::set<PatchNumber> stretching_;
+};
+
+} // namespace
+
+CapOptions cap_options(const Case& the_case) {
+    CapOptions options;
+    options.grading = {the_case.cap_growth, the_case.cap_size};
+    options.radius_edge = the_case.cap_quality;
+    options.mesher = the_case.cap_mesher;
+    options.blocks = the_case.cap_blocks;
+    options.curve_order = the_case.cap_curve_order;
+    return options;
+}
+
+template<int D>
+CaseSettings<D> case_settings(const Case& the_case, const Surface<D>& start) {
+    return SettingsMaker<D>{the_case, start}.run();
+}
+
+template CaseSettings<2> case_settings<2>(const Case&, const Surface<2>&);
+template CaseSettings<3> case_settings<3>(const Case&, const Surface<3>&);
+
+} // namespace slabhull

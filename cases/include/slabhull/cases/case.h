@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/geometry/displacement_series.h"
+#include "slabhull/geometry/trajectory.h"
+#include "slabhull/io/formats.h"
+#include "slabhull/slab/slab.h"
+#include "slabhull/topology/prism_split.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace slabhull {
+
+/// A number list as written in a case file: D entries, or 3 for axes.
+using Numbers = std::vector<double>;
+
+/// A closed surface (D = 3) or curve (D = 2) from a file, kept as it is.
+struct BodyFile {
+    std::filesystem::path file;
+    std::string patch;
+};
+
+/// An ellipsoid or ellipse meshed by Slabhull: those of the experiments.
+struct EllipsoidBody {
+    Numbers centre;
+    Numbers semi_axes;
+    int frequency = 1; ///< D = 3: 20 frequency^2 triangles; D = 2: number of edges
+    std::string patch;
+};
+
+struct BoxSpec {
+    Numbers min;
+    Numbers max;
+    double size = 0;
+    std::string patch = "walls";
+};
+
+/// The domain as a mesh that exists: boundary facets in no group get the patch "boundary".
+struct InitialMesh {
+    std::filesystem::path file;
+};
+
+/// The domain as an outer boundary with bodies inside, to be meshed first.
+struct InitialBodies {
+    std::vector<BodyFile> files;
+    std::vector<EllipsoidBody> ellipsoids;
+    std::variant<BoxSpec, BodyFile> outer;
+};
+
+/// Files that say how the vertices of a patch are displaced, one for each time.
+struct DisplacementSpec {
+    std::vector<std::filesystem::path> files; ///< by time; or, when empty:
+    std::filesystem::path pattern;            ///< '*' in its file name stands for a number
+    std::vector<double> times;                ///< empty: where the files say
+    std::string array = "displacement";       ///< of VTU files
+    std::optional<double> tolerance;          ///< between vertices and rows; by default by the patch's extent
+    TimeInterpolation interpolation = TimeInterpolation::cubic;
+};
+
+struct MotionSpec {
+    enum class Kind {
+        rotation,
+        translation,
+        expansion,
+        velocity,
+        rigid_table,
+        sequence,
+        displacement_series,
+        stretch
+    };
+    Kind kind = Kind::translation;
+    Numbers axis{0, 0, 1};
+    Numbers centre;
+    Numbers velocity;
+    double rate = 0;
+    std::vector<std::string> formula;
+    std::map<std::string, double> constants;
+    std::filesystem::path table;   ///< of a rigid table; of a rotation where it is not empty, for the rate
+    std::vector<MotionSpec> steps; ///< of a sequence, inner first
+    DisplacementSpec displacements;
+
+    /// Said by a field of velocities, which motion_of() makes.
+    bool is_field() const { return kind != Kind::displacement_series && kind != Kind::stretch; }
+};
+
+struct ProjectionSpec {
+    enum class Kind { sphere, ellipsoid, cylinder, plane, file };
+    Kind kind = Kind::sphere;
+    Numbers centre;    ///< a point of the axis for a cylinder, a point of the plane
+    Numbers direction; ///< axis of a cylinder, normal of a plane
+    Numbers semi_axes; ///< all equal for a sphere or circle
+    double radius = 0; ///< of a cylinder
+    std::filesystem::path file;
+};
+
+/// A case as a case file says it (docs/case-file.md), with everything checked that can be without reading
+/// other files.
+struct Case {
+    std::string title;
+    std::uint32_t checksum = 0; ///< of the file's bytes
+    int dimension = 3;
+    std::string experiment; ///< empty unless it is one
+    int level = 0;
+    std::variant<InitialMesh, InitialBodies> initial;
+
+    double start = 0;
+    double end = 1;
+    int slabs = 1;
+    std::optional<int> layers;     ///< of each slab's side ...
+    std::optional<double> spacing; ///< ... or the longest duration of a layer
+    bool adapt = false;            ///< a slab ends before its boundary tangles ...
+    double adapt_floor = 0.01;     ///< ... but lasts at least this part of what it should
+
+    std::map<std::string, MotionSpec> motions; ///< by patch
+    std::map<std::string, ProjectionSpec> projections;
+    TrajectoryOptions trajectory;
+    Split split = Split::C;
+    Diagonals diagonals = Diagonals::shape; ///< of splits B and D
+    double cap_size = std::numeric_limits<double>::infinity();
+    double cap_growth = 0.3;
+    double cap_quality = 1.414;
+    bool cap_curve_order = true;                  ///< `cap.order = "curve"`
+    SolidMesher cap_mesher = SolidMesher::tetgen; ///< D = 3
+    int cap_blocks = 0;                           ///< D = 3; 0: chosen by memory
+    CapReuse cap_reuse = CapReuse::none;
+    double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
+
+    std::filesystem::path directory = "out";
+    std::vector<std::string> formats{"vtu", "msh"};
+    std::map<std::string, io::WriteOptions> writing; ///< how, by format
+
+    io::WriteOptions writing_of(const std::string& format) const {
+        const auto found = writing.find(format);
+        return found == writing.end() ? io::WriteOptions{} : found->second;
+    }
+    /// When slab `slab` begins; that of `slabs` is the end.
+    double slab_begin(int slab) const;
+    /// Where the slab that begins at `time` ends, when nothing cuts it short.
+    double slab_end(double time) const;
+    /// The times of the levels of a slab, from its beginning to its end.
+    std::vector<double> level_times(double begin, double end) const;
+    std::vector<double> level_times(int slab) const {
+        return level_times(slab_begin(slab), slab_begin(slab + 1));
+    }
+};
+
+/// Reads a case file. Paths in it are taken relative to it.
+/// Throws InputError when it cannot be read, UsageError naming key, line and what was expected otherwise.
+Case read_case(const std::filesystem::path& path);
+
+/// One of the paper's six experiments at a level (a row of its tables), ready to run.
+/// Throws UsageError naming the experiments or the levels that there are.
+Case experiment_case(const std::string& name, int level);
+
+/// Where most simplices of a hull of an experiment in space are (the plane ones have one set of spacings).
+enum class Bulk {
+    side, ///< as in the paper: many layers in split E, caps that are coarse inside
+    caps  ///< the caps' meshing is nearly all the work: few layers in split C, caps that are fine inside
+};
+
+/// The same with any refinement: the spacings of body, box and time are divided by it. For `Bulk::side`,
+/// refinements of about 1 are level 1.
+Case experiment_at(const std::string& name, double refinement, Bulk bulk = Bulk::side);
+
+} // namespace slabhull

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/cases/case.h"
+#include "slabhull/cases/displacement_match.h"
+#include "slabhull/slab/slab.h"
+
+#include <map>
+
+namespace slabhull {
+
+/// What a march needs of a case, and how the files of displacements fitted the boundary.
+template<int D>
+struct CaseSettings {
+    SlabSettings<D> slab;
+    std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move as such files say
+};
+
+/// How a case wants its caps meshed.
+CapOptions cap_options(const Case& the_case);
+
+/// The settings that a case gives, for a domain with the given boundary when its motion starts. The
+/// boundary's vertices have the tracks 0, 1 .. in order. Throws UsageError for a motion or projection of a
+/// patch that does not exist, UsageError and InputError for what is wrong with the files of motions.
+template<int D>
+CaseSettings<D> case_settings(const Case& the_case, const Surface<D>& start);
+
+/// The same without the report about files.
+template<int D>
+SlabSettings<D> settings_of(const Case& the_case, const Surface<D>& start) {
+    return case_settings<D>(the_case, start).slab;
+}
+
+extern template CaseSettings<2> case_settings<2>(const Case&, const Surface<2>&);
+extern template CaseSettings<3> case_settings<3>(const Case&, const Surface<3>&);
+
+} // namespace slabhull

@@ -1,0 +1,541 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/cases/hull_files.h"
+
+#include "cases/run/mesh_soup.h"
+#include "edit/soup_cells.h"
+#include "slabhull/core/error.h"
+#include "slabhull/io/files.h"
+#include "slabhull/slab/hull_columns.h"
+#include "slabhull/topology/adjacency.h"
+#include "slabhull/topology/cell_stretches.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+namespace slabhull {
+
+namespace {
+
+using io::DataArray;
+using io::DataColumn;
+using io::MeshColumns;
+using io::Scalar;
+
+/// A column computed row by row.
+template<class T, class Value>
+Column<T> computed(std::size_t rows, Value value) {
+    return Column<T>{rows, 1, [value](std::size_t begin, std::size_t end, T* out) {
+                         for (std::size_t row = begin; row < end; ++row) {
+                             *out++ = static_cast<T>(value(row));
+                         }
+                     }};
+}
+
+template<std::size_t N>
+Column<std::int64_t> index_rows(std::span<const std::array<Index, N>> rows, std::int64_t shift = 0) {
+    return {rows.size(), N, [rows, shift](std::size_t begin, std::size_t end, std::int64_t* out) {
+                for (std::size_t row = begin; row < end; ++row) {
+                    for (const Index value : rows[row]) {
+                        *out++ = static_cast<std::int64_t>(value) + shift;
+                    }
+                }
+            }};
+}
+
+/// Three coordinates for every point: (x, y, t) or (x, y, z) of a hull, (x, y, 0) or (x, y, z) of a cap.
+template<std::size_t N>
+Column<double> first_three(std::span<const Point<static_cast<int>(N)>> points) {
+    return {points.size(), 3, [points](std::size_t begin, std::size_t end, double* out) {
+                for (std::size_t row = begin; row < end; ++row) {
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        *out++ = k < N ? points[row][k] : 0.0;
+                    }
+                }
+            }};
+}
+
+Column<std::int64_t> ids(const Array<std::int64_t>& values) {
+    return Column<std::int64_t>::over(std::span<const std::int64_t>{values});
+}
+
+/// The first cell of each point, found for a block of points after the other, as writers ask for them.
+template<int D>
+class CellsOfPoints {
+public:
+    explicit CellsOfPoints(const Hull<D>& hull)
+        : hull_{hull}, stretches_{hull.cells, hull.points.size()},
+          cell_(std::min(block, hull.points.size())) {}
+
+    void copy(std::size_t begin, std::size_t end, std::int64_t* out) {
+        const std::lock_guard guard{lock_};
+        for (std::size_t v = begin; v < end; ++v) {
+            if (v / block != block_) {
+                find(v / block);
+            }
+            *out++ = std::int64_t{cell_[v % block]};
+        }
+    }
+
+private:
+    static constexpr std::size_t block = std::size_t{1} << 20;
+
+    void find(std::size_t which) {
+        block_ = which;
+        const std::size_t begin = which * block;
+        const std::size_t end = std::min(hull_.points.size(), begin + block);
+        std::fill(cell_.begin(), cell_.end(), no_index);
+        for (const Index stretch : stretches_.naming(begin, end)) {
+            stretches_.each_cell(stretch, [&](std::size_t c) {
+                for (const Index v : hull_.cells[c]) {
+                    if (begin <= v && v < end) {
+                        Index& first = cell_[v - begin];
+                        first = std::min(first, static_cast<Index>(c));
+                    }
+                }
+            });
+        }
+    }
+
+    const Hull<D>& hull_;
+    CellStretches<D> stretches_;
+    std::mutex lock_;
+    Array<Index> cell_; ///< of the block's points
+    std::size_t block_ = static_cast<std::size_t>(-1);
+};
+
+template<int D>
+Column<std::int64_t> cells_of_points(const Hull<D>& hull) {
+    const auto cells = std::make_shared<CellsOfPoints<D>>(hull);
+    return {hull.points.size(), 1,
+            [cells](std::size_t begin, std::size_t end, std::int64_t* out) { cells->copy(begin, end, out); }};
+}
+
+DataArray number_field(std::string name, Array<std::int64_t> values) {
+    return {std::move(name), 1, std::move(values)};
+}
+
+void add_patch_fields(MeshColumns& mesh, const PatchList& patches) {
+    Array<std::int64_t> numbers;
+    std::vector<std::string> names;
+    for (const Patch& each : patches) {
+        numbers.push_back(each.number);
+        names.push_back(each.name);
+    }
+    mesh.field_data.push_back(number_field("patch_number", std::move(numbers)));
+    mesh.field_data.push_back({"patch_name", 1, std::move(names)});
+}
+
+template<int D>
+Column<double> times_of(const Hull<D>& hull) {
+    return computed<double>(hull.points.size(), [&hull](std::size_t v) { return hull.points[v][D]; });
+}
+
+template<int D>
+MeshColumns mesh_columns(const Hull<D>& hull) {
+    MeshColumns mesh;
+    mesh.dimension = D;
+    mesh.points = first_three<D + 1>(hull.points);
+    mesh.cells = index_rows(std::span<const Simplex<D>>{hull.cells});
+    return mesh;
+}
+
+template<int D>
+MeshColumns vtu_columns(const Hull<D>& hull) {
+    MeshColumns mesh = mesh_columns(hull);
+    mesh.point_data = {{"t", Scalar::float64, times_of(hull)},
+                       {"vertex_id", Scalar::int64, id_column(hull.vertex_ids)},
+                       {"track_id", Scalar::int64, id_column(hull.track_ids)},
+                       {"cell", Scalar::int64, cells_of_points(hull)}};
+    mesh.cell_data = {
+        {"region", Scalar::int32, region_column(hull)},
+        {"patch", Scalar::int32, patch_column(hull)},
+        {"layer", Scalar::int32, layer_column(hull)},
+        {"neighbors", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors})}};
+    mesh.field_data = {number_field("slab", {hull.slab}),
+                       {"time", 1, Array<double>{hull.time[0], hull.time[1]}},
+                       number_field("dimension", {D})};
+    add_patch_fields(mesh, hull.patches);
+    return mesh;
+}
+
+/// Runs of cells of one region or patch, in cell order.
+template<int D>
+std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
+    PatchNumber largest = 0;
+    std::unordered_map<PatchNumber, std::string> names; // patches, and then runs, may be very many
+    for (const Patch& patch : hull.patches) {
+        largest = std::max(largest, patch.number);
+        names.emplace(patch.number, patch_name({patch}, patch.number));
+    }
+    std::vector<MeshColumns::Group> groups{{0, hull.initial_cells, largest + 1, "initial"}};
+    for (std::size_t layer = 0; layer < hull.layers; ++layer) {
+        for (std::size_t f = 0; f < hull.facet_patch.size(); ++f) {
+            const std::size_t begin =
+                hull.initial_cells + (layer * hull.facet_patch.size() + f) * hull.cells_per_prism;
+            const PatchNumber number = hull.facet_patch[f];
+            if (groups.back().number == number) {
+                groups.back().end = begin + hull.cells_per_prism;
+            } else {
+                const auto name = names.find(number);
+                groups.push_back({begin, begin + hull.cells_per_prism, number,
+                                  name != names.end() ? name->second : patch_name({}, number)});
+            }
+        }
+    }
+    groups.push_back({hull.terminating_begin(), hull.cells.size(), largest + 2, "terminating"});
+    return groups;
+}
+
+template<int D>
+MeshColumns msh_columns(const Hull<D>& hull) {
+    MeshColumns mesh = mesh_columns(hull);
+    mesh.groups = groups_of(hull);
+    if constexpr (D == 3) {
+        mesh.point_data.push_back({"t", Scalar::float64, times_of(hull)});
+    }
+    mesh.point_data.push_back({"vertex_id", Scalar::int64, id_column(hull.vertex_ids)});
+    mesh.point_data.push_back({"track_id", Scalar::int64, id_column(hull.track_ids)});
+    // Element tags count from 1.
+    mesh.cell_data = {
+        {"neighbor", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors}, 1)}};
+    return mesh;
+}
+
+std::size_t row_count(const DataArray& array) {
+    const auto values = std::visit([](const auto& stored) { return stored.size(); }, array.values);
+    return values / static_cast<std::size_t>(std::max(1, array.components));
+}
+
+/// The array, which may go, as whole numbers; MSH holds them as doubles.
+Array<std::int64_t> whole_numbers(const io::Soup& soup, DataArray&& array) {
+    if (auto* integers = std::get_if<Array<std::int64_t>>(&array.values)) {
+        return std::move(*integers);
+    }
+    const auto* reals = std::get_if<Array<double>>(&array.values);
+    Array<std::int64_t> whole;
+    for (const double value : reals != nullptr ? *reals : Array<double>{}) {
+        if (!(value >= -9e15 && value <= 9e15) ||
+            value != static_cast<double>(static_cast<std::int64_t>(value))) {
+            throw InputError(
+                fmt::format("{}: array \"{}\": {} is not a whole number", soup.path, array.name, value));
+        }
+        whole.push_back(static_cast<std::int64_t>(value));
+    }
+    return whole;
+}
+
+/// A given array of whole numbers with the right shape, or an empty one. It is taken out of the soup's
+/// arrays.
+Array<std::int64_t> take_numbers(const io::Soup& soup, std::vector<DataArray>& arrays,
+                                 const std::string& name, std::size_t rows, int components) {
+    const auto array =
+        std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& each) { return each.name == name; });
+    if (array == arrays.end()) {
+        return {};
+    }
+    if (array->components != components || row_count(*array) != rows) {
+        throw InputError(fmt::format("{}: array \"{}\" has {} rows of {}, expected {} of {}", soup.path,
+                                     array->name, row_count(*array), array->components, rows, components));
+    }
+    DataArray taken = std::move(*array);
+    arrays.erase(array);
+    return whole_numbers(soup, std::move(taken));
+}
+
+IdRuns as_runs(const Array<std::int64_t>& numbers) {
+    IdRuns runs;
+    runs.append(numbers);
+    return runs;
+}
+
+template<int D>
+void require_times(const io::Soup& soup) {
+    if (D == 3 && soup_times(soup) == nullptr) {
+        throw InputError(
+            fmt::format("{}: needs a point array \"t\" of real numbers, one for each point", soup.path));
+    }
+}
+
+template<int D>
+Array<Point<D + 1>> space_time_points(const io::Soup& soup) {
+    Array<Point<D + 1>> points(soup.points.size());
+    const Array<double>* times = D == 3 ? soup_times(soup) : nullptr;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        std::copy(soup.points[v].begin(), soup.points[v].end(), points[v].begin());
+        if (times != nullptr) {
+            points[v][D] = (*times)[v];
+        }
+    }
+    return points;
+}
+
+/// What an MSH says through physical groups: regions by name, the other groups are patches.
+template<int D>
+void read_groups(const io::Soup& soup, HullArrays<D>& hull) {
+    PatchNumber initial = 0;
+    PatchNumber terminating = 0;
+    for (const Patch& group : soup.groups[D]) {
+        if (group.name == "initial") {
+            initial = group.number;
+        } else if (group.name == "terminating") {
+            terminating = group.number;
+        } else {
+            hull.patches.push_back(group);
+        }
+    }
+    if (initial == 0 || terminating == 0) {
+        hull.patches.clear();
+        return;
+    }
+    for (const PatchNumber group : soup.simplices[D].physical) {
+        const bool cap = group == initial || group == terminating;
+        hull.region.push_back(cap ? (group == initial ? 0 : 2) : 1);
+        hull.patch.push_back(cap ? 0 : group);
+    }
+}
+
+template<int D>
+Array<std::int64_t> take_msh_neighbors(io::Soup& soup, std::size_t cells) {
+    Array<std::int64_t> neighbors(cells * (D + 1));
+    for (std::size_t i = 0; i <= D; ++i) {
+        const auto tags = take_numbers(soup, soup.cell_data, fmt::format("neighbor_{}", i), cells, 1);
+        if (tags.empty()) {
+            return {};
+        }
+        for (std::size_t c = 0; c < tags.size(); ++c) {
+            neighbors[c * (D + 1) + i] = tags[c] - 1;
+        }
+    }
+    return neighbors;
+}
+
+template<int D>
+void keep_neighbors(Array<std::int64_t>&& given, HullArrays<D>& hull) {
+    constexpr std::size_t row = D + 1;
+    const std::size_t cells = given.size() / row;
+    const auto impossible = [cells](std::int64_t n) {
+        return n < -1 || n >= static_cast<std::int64_t>(cells);
+    };
+    if (std::any_of(given.begin(), given.end(), impossible)) {
+        hull.other_neighbors = std::move(given);
+        return;
+    }
+    hull.neighbors.resize(cells);
+    parallel_for(cells, 1 << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            for (std::size_t i = 0; i < row; ++i) {
+                const std::int64_t n = given[c * row + i];
+                hull.neighbors[c][i] = n < 0 ? no_index : static_cast<Index>(n);
+            }
+        }
+    });
+}
+
+template<int D>
+void read_fields(const io::Soup& soup, HullArrays<D>& hull) {
+    if (const DataArray* time = soup.find_field_data("time")) {
+        if (const auto* values = std::get_if<Array<double>>(&time->values);
+            values != nullptr && values->size() == 2) {
+            hull.time = {{(*values)[0], (*values)[1]}};
+        }
+    }
+    const DataArray* numbers = soup.find_field_data("patch_number");
+    const DataArray* names = soup.find_field_data("patch_name");
+    if (numbers != nullptr && names != nullptr) {
+        const Array<std::int64_t> given = whole_numbers(soup, DataArray{*numbers});
+        const auto* texts = std::get_if<std::vector<std::string>>(&names->values);
+        for (std::size_t i = 0; texts != nullptr && i < std::min(given.size(), texts->size()); ++i) {
+            hull.patches.push_back({static_cast<PatchNumber>(given[i]), (*texts)[i]});
+        }
+    }
+}
+
+Column<std::int64_t> optional_column(const Array<std::int64_t>& values, int components = 1) {
+    return values.empty() ? Column<std::int64_t>{}
+                          : Column<std::int64_t>::over(std::span<const std::int64_t>{values}, components);
+}
+
+Column<std::int64_t> optional_column(const IdRuns& values) {
+    return values.empty() ? Column<std::int64_t>{} : id_column(values);
+}
+
+} // namespace
+
+template<int D>
+void write_hull(io::AtomicFiles& files, const std::filesystem::path& path, const Hull<D>& hull,
+                const std::string& format, const io::WriteOptions& options) {
+    const MeshColumns mesh = format == "msh" ? msh_columns(hull) : vtu_columns(hull);
+    io::format_named(format)->write(files, path, mesh, options);
+}
+
+template<int D>
+void write_cap(io::AtomicFile& file, const SpatialMesh<D>& cap, double time) {
+    MeshColumns mesh;
+    mesh.dimension = D;
+    mesh.points = first_three<D>(cap.points);
+    mesh.cells = index_rows(std::span<const Simplex<D>>{cap.cells});
+    mesh.point_data = {{"vertex_id", Scalar::int64, ids(cap.vertex_ids)},
+                       {"track_id", Scalar::int64, ids(cap.track_ids)}};
+    mesh.field_data = {{"time", 1, Array<double>{time}}, number_field("dimension", {D})};
+    io::write_vtu(file, mesh);
+}
+
+template<int D>
+void write_terminating_cap(io::AtomicFile& file, const Hull<D>& hull) {
+    const std::size_t first_point = hull.terminating_points_begin();
+    const std::size_t first_cell = hull.terminating_begin();
+    MeshColumns mesh;
+    mesh.dimension = D;
+    mesh.points = {hull.points.size() - first_point, 3,
+                   [&hull, first_point](std::size_t begin, std::size_t end, double* out) {
+                       for (std::size_t v = first_point + begin; v < first_point + end; ++v) {
+                           for (std::size_t k = 0; k < 3; ++k) {
+                               *out++ = k < D ? hull.points[v][k] : 0.0;
+                           }
+                       }
+                   }};
+    mesh.cells = index_rows(std::span<const Simplex<D>>{hull.cells}.subspan(first_cell),
+                            -static_cast<std::int64_t>(first_point));
+    mesh.point_data = {{"vertex_id", Scalar::int64, id_column(hull.vertex_ids, first_point)},
+                       {"track_id", Scalar::int64, id_column(hull.track_ids, first_point)}};
+    mesh.field_data = {{"time", 1, Array<double>{hull.time[1]}}, number_field("dimension", {D})};
+    io::write_vtu(file, mesh);
+}
+
+template<int D>
+SpatialMesh<D> read_cap(const std::filesystem::path& path) {
+    io::Soup soup = io::read_vtu(path);
+    MeshArrays<D> mesh = mesh_of_soup<D>(soup);
+    const auto ids = [&](const char* name) {
+        return take_numbers(soup, soup.point_data, name, mesh.points.size(), 1);
+    };
+    SpatialMesh<D> cap;
+    cap.vertex_ids = ids("vertex_id");
+    cap.track_ids = ids("track_id");
+    if (cap.vertex_ids.empty() || cap.track_ids.empty()) {
+        throw InputError(fmt::format("{}: has no vertex_id and track_id of a cap", path.string()));
+    }
+    cap.neighbors = build_adjacency<D>(mesh.cells, mesh.points.size()).neighbors;
+    cap.points = std::move(mesh.points);
+    cap.cells = std::move(mesh.cells);
+    return cap;
+}
+
+template<int D>
+void write_section(io::AtomicFile& file, const Section<D>& section) {
+    const Surface<D>& surface = section.surface;
+    const auto over = [](const auto& values) {
+        return Column<std::int64_t>::over(std::span{values.data(), values.size()});
+    };
+    MeshColumns mesh;
+    mesh.dimension = D - 1;
+    mesh.points = first_three<D>(surface.points);
+    mesh.cells = index_rows(std::span<const Facet<D>>{surface.facets});
+    mesh.point_data = {{"vertex_id", Scalar::int64, ids(section.vertex_ids)},
+                       {"track_id", Scalar::int64, ids(section.track_ids)}};
+    mesh.cell_data = {{"patch", Scalar::int32, over(surface.patch)},
+                      {"hull_cell", Scalar::int64, over(section.hull_cell)}};
+    mesh.field_data = {{"time", 1, Array<double>{section.time}}, number_field("dimension", {D})};
+    add_patch_fields(mesh, surface.patches);
+    io::write_vtu(file, mesh);
+}
+
+MeshKind kind_of(const io::Soup& soup) {
+    const int dimension = soup.top_dimension();
+    if (dimension < 2) {
+        throw InputError(fmt::format("{}: has neither triangles nor tetrahedra", soup.path));
+    }
+    const PatchList& groups = soup.groups[static_cast<std::size_t>(dimension)];
+    return {dimension, soup.find_point_data("t") != nullptr || patch_number(groups, "terminating") != 0};
+}
+
+template<int D>
+HullArrays<D> hull_of_soup(io::Soup& soup) {
+    HullArrays<D> hull;
+    const std::size_t cells = soup.simplices[D].size(D);
+    const std::size_t points = soup.points.size();
+    const auto runs_of_cells = [&](const char* name) {
+        return as_runs(take_numbers(soup, soup.cell_data, name, cells, 1));
+    };
+    const auto of_points = [&](const char* name) {
+        return take_numbers(soup, soup.point_data, name, points, 1);
+    };
+    require_times<D>(soup);
+    read_fields(soup, hull);
+    const bool of_msh = soup.find_cell_data("neighbor_0") != nullptr;
+    const bool has_regions = soup.find_cell_data("region") != nullptr;
+    hull.layer = runs_of_cells("layer");
+    if (has_regions) {
+        hull.region = runs_of_cells("region");
+        hull.patch = runs_of_cells("patch");
+    } else {
+        read_groups(soup, hull);
+    }
+    keep_neighbors<D>(has_regions ? take_numbers(soup, soup.cell_data, "neighbors", cells, D + 1)
+                                  : take_msh_neighbors<D>(soup, cells),
+                      hull);
+    hull.vertex_id = as_runs(of_points("vertex_id"));
+    hull.track_id = as_runs(of_points("track_id"));
+    hull.cell_of_vertex = of_points("cell");
+    if (of_msh) { // an MSH has element tags there, too
+        std::for_each(hull.cell_of_vertex.begin(), hull.cell_of_vertex.end(), [](auto& cell) { --cell; });
+    }
+    hull.points = space_time_points<D>(soup);
+    soup.points = {};
+    hull.cells = simplices_of<D>(soup);
+    soup.simplices[D].vertices = {};
+    return hull;
+}
+
+template<int D>
+HullColumns<D> HullArrays<D>::columns() const {
+    HullColumns<D> all;
+    all.points = points;
+    all.cells = cells;
+    all.region = optional_column(region);
+    all.patch = optional_column(patch);
+    all.layer = optional_column(layer);
+    all.vertex_id = optional_column(vertex_id);
+    all.track_id = optional_column(track_id);
+    all.neighbors = neighbors.empty() ? optional_column(other_neighbors, D + 1)
+                                      : neighbor_column(std::span<const Neighbors<D>>{neighbors});
+    all.neighbor_table = neighbors;
+    all.cell_of_vertex = optional_column(cell_of_vertex);
+    all.patches = patches;
+    all.time = time;
+    return all;
+}
+
+template<int D>
+MeshArrays<D> mesh_of_soup(const io::Soup& soup) {
+    MeshArrays<D> mesh;
+    mesh.cells = simplices_of<D>(soup);
+    for (std::size_t v = 0; v < soup.points.size(); ++v) {
+        mesh.points.push_back(point_in_space<D>(soup, v));
+    }
+    return mesh;
+}
+
+template void write_hull<2>(io::AtomicFiles&, const std::filesystem::path&, const Hull<2>&,
+                            const std::string&, const io::WriteOptions&);
+template void write_hull<3>(io::AtomicFiles&, const std::filesystem::path&, const Hull<3>&,
+                            const std::string&, const io::WriteOptions&);
+template void write_cap<2>(io::AtomicFile&, const SpatialMesh<2>&, double);
+template void write_cap<3>(io::AtomicFile&, const SpatialMesh<3>&, double);
+template void write_terminating_cap<2>(io::AtomicFile&, const Hull<2>&);
+template void write_terminating_cap<3>(io::AtomicFile&, const Hull<3>&);
+template SpatialMesh<2> read_cap<2>(const std::filesystem::path&);
+template SpatialMesh<3> read_cap<3>(const std::filesystem::path&);
+template void write_section<2>(io::AtomicFile&, const Section<2>&);
+template void write_section<3>(io::AtomicFile&, const Section<3>&);
+template struct HullArrays<2>;
+template struct HullArrays<3>;
+template HullArrays<2> hull_of_soup<2>(io::Soup&);
+template HullArrays<3> hull_of_soup<3>(io::Soup&);
+template MeshArrays<2> mesh_of_soup<2>(const io::Soup&);
+template MeshArrays<3> mesh_of_soup<3>(const io::Soup&);
+
+} // namespace slabhull

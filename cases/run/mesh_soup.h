@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/message.h"
+#include "slabhull/io/soup.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+#include <span>
+
+namespace slabhull {
+
+/// A point of a soup; throws InputError where D = 2 and the soup leaves the plane.
+template<int D>
+Point<D> point_in_space(const io::Soup& soup, std::size_t v);
+
+/// The facets of a soup as one patch; used points only. Throws InputError when it has no facets or, for D =
+/// 2, leaves the plane z = 0.
+template<int D>
+Surface<D> surface_of_soup(const io::Soup& soup, const Patch& patch);
+
+/// The D-simplices of a soup as the mesh of a domain, in the file's order: used points only, cells positive,
+/// patches from the physical groups of the boundary facets. Facets in no group become the patch "boundary",
+/// with a warning that counts them. Throws InputError naming cells and facets by the file's numbers:
+/// inverted, degenerate, overlapping cells, a boundary that is not one.
+template<int D>
+SpatialMesh<D> domain_of_soup(const io::Soup& soup, const Listener& listener);
+
+} // namespace slabhull

@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/cases/run.h"
+
+#include "cases/run/journal.h"
+#include "cases/run/report_objects.h"
+#include "slabhull/cases/checkpoint.h"
+#include "slabhull/cases/hull_files.h"
+#include "slabhull/cases/initial.h"
+#include "slabhull/cases/settings.h"
+#include "slabhull/core/error.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/io/files.h"
+#include "slabhull/slab/check.h"
+#include "slabhull/slab/march.h"
+#include "slabhull/slab/tangling.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+namespace slabhull {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json seconds_as_json(const StageClock& clock) {
+    Json seconds = Json::object();
+    for (const auto& [stage, passed] : clock.stages()) {
+        seconds[stage] = passed;
+    }
+    return seconds;
+}
+
+/// Each stage in parts of the time that the cap was meshed, and all of them; empty where no cap was.
+Json shares_as_json(const StageClock& clock) {
+    double meshing = 0;
+    double all = 0;
+    for (const auto& [stage, passed] : clock.stages()) {
+        meshing += stage == "cap meshing" ? passed : 0;
+        all += passed;
+    }
+    Json shares = Json::object();
+    if (meshing > 0) {
+        for (const auto& [stage, passed] : clock.stages()) {
+            if (stage != "cap meshing") {
+                shares[stage] = passed / meshing;
+            }
+        }
+        shares["all"] = (all - meshing) / meshing;
+    }
+    return shares;
+}
+
+Json peaks_as_json() {
+    return {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};
+}
+
+const char* mesher_name(const Case& the_case) {
+    if (the_case.dimension == 2) {
+        return "cdt";
+    }
+    return the_case.cap_mesher == SolidMesher::hxt ? "hxt" : "tetgen";
+}
+
+Json settings_as_json(const Case& the_case) {
+    return {{"title", the_case.title},
+            {"dimension", the_case.dimension},
+            {"experiment", the_case.experiment},
+            {"level", the_case.level},
+            {"start", the_case.start},
+            {"end", the_case.end},
+            {"slabs", the_case.slabs},
+            {"scheme", scheme_name(the_case.trajectory.scheme)},
+            {"substeps", the_case.trajectory.substeps},
+            {"split", split_name(the_case.split)},
+            {"diagonals", the_case.diagonals == Diagonals::shape ? "shape" : "smallest-id"},
+            {"cap_mesher", mesher_name(the_case)},
+            {"cap_blocks", the_case.cap_blocks > 0 ? Json(the_case.cap_blocks) : Json()},
+            {"cap_size", std::isfinite(the_case.cap_size) ? Json(the_case.cap_size) : Json()},
+            {"cap_growth", the_case.cap_growth},
+            {"cap_quality", the_case.cap_quality},
+            {"cap_reuse", the_case.cap_reuse == CapReuse::move ? "move" : "none"},
+            {"cap_reuse_angle", the_case.cap_reuse_angle},
+            {"cap_order", the_case.cap_curve_order ? "curve" : "mesher"}};
+}
+
+/// The files of a slab while they are being written. Without commit they vanish.
+struct SlabFiles {
+    io::AtomicFiles open;
+    std::uint32_t cap_checksum = 0;
+    std::future<void> written; ///< last, to be waited for before the files go
+};
+
+/// Names of the files beside the slabs.
+constexpr const char* checkpoint_name = "march.state";
+constexpr const char* journal_name = "slabs.jsonl";
+
+std::string slab_name(int slab, const std::string& format) {
+    return fmt::format("slab_{:04}.{}", slab, format);
+}
+
+std::string cap_name(int cap) {
+    return fmt::format("cap_{:04}.vtu", cap);
+}
+
+template<int D>
+class Runner {
+public:
+    Runner(const Case& the_case, const RunOptions& options, const Listener& listener)
+        : case_{the_case}, listener_{listener} {
+        io::make_folder(case_.directory);
+        io::remove_stale_parts(case_.directory);
+        if (!options.resume || !resume()) {
+            begin();
+        }
+    }
+
+    RunResult run() {
+        const std::size_t before = result_.files.size();
+        try {
+            while (march_->state().time < case_.end) {
+                run_slab();
+            }
+        } catch (const Error&) {
+            if (result_.files.size() > before) {
+                try {
+                    write_overview();
+                } catch (const OutputError&) { // what stopped the run says more
+                }
+            }
+            throw;
+        }
+        write_overview();
+        listener_.progress("done", 1);
+        return std::move(result_);
+    }
+
+private:
+    std::filesystem::path path_of(const std::string& name) const { return case_.directory / name; }
+
+    void begin() {
+        listener_.progress("initial cap", 0);
+        StageClock clock;
+        IdCounter ids;
+        SpatialMesh<D> cap = initial_cap<D>(case_, ids, listener_, clock);
+        initial_ = report_of_initial(cap, clock);
+        start(march_from<D>(std::move(cap), case_.start, ids));
+    }
+
+    /// False when there is nothing to go on from.
+    bool resume() {
+        const auto path = path_of(checkpoint_name);
+        if (!std::filesystem::exists(path)) {
+            listener_.warning(
+                fmt::format("{}: no such checkpoint, the run starts from the beginning", path.string()));
+            return false;
+        }
+        Checkpoint<D> checkpoint = read_checkpoint<D>(path);
+        if (checkpoint.files.case_checksum != case_.checksum) {
+            listener_.warning(
+                fmt::format("the case file is not what it was when {} was written", path.string()));
+        }
+        listener_.progress(fmt::format("going on from t = {}", checkpoint.state.time), 0);
+        start(std::move(checkpoint.state));
+        journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
+        return true;
+    }
+
+    void start(MarchState<D>&& state) {
+        CaseSettings<D> settings = case_settings<D>(case_, state.start_boundary());
+        patches_ = state.cap.patches;
+        matches_ = std::move(settings.matches);
+        march_.emplace(std::move(state), std::move(settings.slab));
+    }
+
+    void run_slab() {
+        const double time = march_->state().time;
+        const int number = march_->state().slab;
+        listener_.progress(fmt::format("slab {} from t = {:.6g}", number, time),
+                           (time - case_.start) / (case_.end - case_.start));
+        StageClock clock;
+        Slab<D> slab = build(clock);
+        SlabFiles files;
+        begin_writing(slab, files); // the disk is slow: it works while the hull is checked
+        const HullReport checked = check_hull<D>(columns_of(slab.hull));
+        clock.book("checking");
+        if (!checked.clean()) {
+            throw GeometryError(fmt::format("the hull of slab {} has {} defects and was not written:\n{}",
+                                            number, checked.total(), findings_as_text(checked)));
+        }
+        files.written.get();
+        if (!journal_) {
+            replace_earlier_run();
+        }
+        files.open.commit();
+        result_.files.insert(result_.files.end(), files.open.paths().begin(), files.open.paths().end());
+        result_.cells += slab.hull.cells.size();
+        result_.points += slab.hull.points.size();
+        ++result_.slabs;
+        clock.book("writing");
+        const Json report = report_of(slab, checked, clock);
+        march_->accept(std::move(slab));
+        journal_->append(report.dump());
+        write_checkpoint(
+            path_of(checkpoint_name), march_->state(),
+            {cap_name(march_->state().slab), files.cap_checksum, journal_->size(), case_.checksum});
+    }
+
+    /// The first slab is complete and takes the place of one that an earlier run may have left. That run's
+    /// checkpoint goes before its slabs do: nobody shall go on from it.
+    void replace_earlier_run() {
+        std::filesystem::remove(path_of(checkpoint_name));
+        journal_.emplace(path_of(journal_name), 0);
+        journal_->append(initial_.dump());
+    }
+
+    /// The slab as planned or, if the case wants it, as much of it as is not tangled.
+    Slab<D> build(StageClock& clock) {
+        const double begin = march_->state().time;
+        const double floor = case_.adapt_floor * (case_.end - case_.start) / case_.slabs;
+        for (double end = case_.slab_end(begin);;) {
+            try {
+                return march_->build(case_.level_times(begin, end), clock);
+            } catch (const TangledBoundary& tangled) {
+                if (!case_.adapt) {
+                    throw;
+                }
+                if (tangled.good_until - begin < floor) {
+                    throw GeometryError(
+                        fmt::format("slab {} would have to be shorter than {:.3g}, the least that "
+                                    "[time] adapt_floor allows:\n{}",
+                                    march_->state().slab, floor, tangled.what()),
+                        tangled.entities);
+                }
+                end = tangled.good_until;
+                listener_.warning(fmt::format("slab {} ends at t = {:.9g}, before its boundary tangles",
+                                              march_->state().slab, end));
+            }
+        }
+    }
+
+    void begin_writing(const Slab<D>& slab, SlabFiles& files) {
+        files.written = std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred,
+                                   [this, &slab, &files] { write(slab, files); });
+    }
+
+    void write(const Slab<D>& slab, SlabFiles& files) const {
+        for (const std::string& format : case_.formats) {
+            write_hull(files.open, path_of(slab_name(slab.hull.slab, format)), slab.hull, format,
+                       case_.writing_of(format));
+            files.open.finish();
+        }
+        io::AtomicFile& cap = files.open.open(path_of(cap_name(slab.hull.slab + 1)));
+        cap.keep_checksum();
+        write_terminating_cap(cap, slab.hull);
+        cap.finish();
+        files.cap_checksum = cap.checksum();
+    }
+
+    static Json report_of_initial(const SpatialMesh<D>& cap, const StageClock& clock) {
+        return {{"points", cap.points.size()},
+                {"cells", cap.cells.size()},
+                {"boundary_facets", cap.boundary_facets.size()},
+                {"seconds", seconds_as_json(clock)}};
+    }
+
+    static Json report_of(const Slab<D>& slab, const HullReport& checked, const StageClock& clock) {
+        Json json = as_json(checked);
+        json["slab"] = slab.hull.slab;
+        json["projection"] = Json::object();
+        for (const auto& [patch, moved] : slab.projected) {
+            json["projection"][patch_name(slab.hull.patches, patch)] = {{"largest", moved.largest},
+                                                                        {"mean", moved.mean}};
+        }
+        json["cap"] = {{"made", slab.cap_moved ? "moved" : "meshed"}};
+        if (!slab.cap_moved) {
+            json["cap"]["blocks"] = slab.cap_blocks;
+        }
+        if (slab.moved_angle) {
+            json["cap"]["angle_when_moved"] = *slab.moved_angle;
+        }
+        json["seconds"] = seconds_as_json(clock);
+        json["beside_cap_meshing"] = shares_as_json(clock);
+        json["peak_memory"] = peaks_as_json();
+        json["peak_memory"]["bytes_per_cell"] =
+            static_cast<double>(peak_memory()) / static_cast<double>(slab.hull.cells.size());
+        return json;
+    }
+
+    /// report.json and the series for ParaView, of all slabs there are.
+    void write_overview() {
+        Json head;
+        head["slabhull"] = version();
+        head["settings"] = settings_as_json(case_);
+        head["threads"] = thread_count();
+        head["patches"] = Json::object();
+        for (const Patch& patch : patches_) {
+            head["patches"][std::to_string(patch.number)] = patch.name;
+        }
+        for (const auto& [patch, match] : matches_) {
+            head["displacements"][patch_name(patches_, patch)] = {{"files", match.files},
+                                                                  {"vertices", match.vertices},
+                                                                  {"tolerance", match.tolerance},
+                                                                  {"largest_distance", match.largest}};
+        }
+        head["peak_memory"] = peaks_as_json();
+        io::AtomicFile file{path_of("report.json")};
+        write_report(head, file);
+        file.commit();
+        result_.files.push_back(path_of("report.json"));
+        write_series();
+    }
+
+    /// Collections for ParaView: the slabs at the times they begin, the caps at theirs.
+    void write_series() {
+        std::vector<io::SeriesEntry> slabs, caps;
+        bool initial = true;
+        // ParaView opens "vtu" and "pvtu".
+        const auto shown = std::find_if(case_.formats.begin(), case_.formats.end(),
+                                        [](const auto& format) { return format.ends_with("vtu"); });
+        journal_->each_line([&](const std::string& line) {
+            if (!std::exchange(initial, false)) {
+                const Json slab = Json::parse(line);
+                const int number = slab["slab"];
+                if (shown != case_.formats.end()) {
+                    slabs.push_back({slab["time"][0], slab_name(number, *shown)});
+                }
+                caps.push_back({slab["time"][1], cap_name(number + 1)});
+            }
+        });
+        if (shown != case_.formats.end()) {
+            add_series("slabs.pvd", slabs);
+        }
+        add_series("caps.pvd", caps);
+    }
+
+    void add_series(const char* name, const std::vector<io::SeriesEntry>& entries) {
+        io::write_pvd(path_of(name), entries);
+        result_.files.push_back(path_of(name));
+    }
+
+    void write_report(const Json& head, io::AtomicFile& file) const {
+        const std::string text = head.dump(2);
+        file.write(std::string_view{text}.substr(0, text.size() - 2)); // without the closing brace
+        bool initial = true;
+        const char* before = "";
+        journal_->each_line([&](const std::string& line) {
+            file.write(initial ? ",\n  \"initial_cap\": " + line + ",\n  \"slabs\": ["
+                               : before + ("\n    " + line));
+            before = initial ? "" : ",";
+            initial = false;
+        });
+        file.write("\n  ]\n}\n");
+    }
+
+    const Case& case_;
+    const Listener& listener_;
+    std::optional<March<D>> march_;
+    std::optional<Journal> journal_; ///< there from the first slab on
+    Json initial_;
+    PatchList patches_;
+    std::map<PatchNumber, DisplacementMatch> matches_;
+    RunResult result_;
+};
+
+} // namespace
+
+RunResult run_case(const Case& the_case, const Listener& listener, const RunOptions& options) {
+    return the_case.dimension == 2 ? Runner<2>{the_case, options, listener}.run()
+                                   : Runner<3>{the_case, options, listener}.run();
+}
+
+const char* version() {
+    return SLABHULL_VERSION;
+}
+
+} // namespace slabhull

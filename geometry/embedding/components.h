@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "geometry/basics/predicates.h"
+#include "geometry/embedding/box_tree.h"
+#include "geometry/embedding/facet_pair.h"
+
+#include "slabhull/topology/adjacency.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace slabhull {
+
+/// Connected pieces of a closed surface, numbered by their first facet.
+struct Components {
+    std::vector<Index> of_facet;
+    std::vector<Index> first_facet; ///< of each component
+    std::vector<double> enclosed; ///< signed measure: positive for an outer boundary, negative around a body
+
+    std::size_t count() const { return first_facet.size(); }
+};
+
+/// Needs: an adjacency without defects.
+template<int D>
+Components find_components(const Surface<D>& surface, const Adjacency<D - 1>& adjacency);
+
+namespace detail {
+
+/// The line through p along the first axis, moved aside by an infinitely small step so that it meets no edge:
+/// +1 or -1 for a facet it goes through, the sign being that of the facet's normal on that axis, else 0.
+int line_passes(const FacetCorners<2>& facet, const Point<2>& p);
+int line_passes(const FacetCorners<3>& facet, const Point<3>& p);
+
+} // namespace detail
+
+/// How often the facets for which counts(facet) surround p, which is on none of them.
+/// Exact: signed crossings of a ray.
+/// Cost: that of finding the boxes along the ray.
+template<int D, class Counts>
+int winding_number(const Surface<D>& surface, const BoxTree<D>& tree, const Point<D>& p, Counts&& counts) {
+    Box<D> ray{p, p};
+    ray.high[0] = std::numeric_limits<double>::infinity();
+    int winding = 0;
+    tree.find(ray, [&](Index facet) {
+        if (!counts(facet)) {
+            return;
+        }
+        const FacetCorners<D> corners = corners_of_facet(surface, facet);
+        const int turn = detail::line_passes(corners, p);
+        if (turn != 0) {
+            std::array<Point<D>, D + 1> with_p;
+            std::copy(corners.begin(), corners.end(), with_p.begin());
+            with_p[D] = p;
+            winding += exact::orientation(with_p) == -turn ? turn : 0; // ahead of p
+        }
+    });
+    return winding;
+}
+
+extern template Components find_components<2>(const Surface<2>&, const Adjacency<1>&);
+extern template Components find_components<3>(const Surface<3>&, const Adjacency<2>&);
+
+} // namespace slabhull

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "geometry/embedding/box_tree.h"
+
+#include "slabhull/core/point.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+#include <array>
+
+namespace slabhull {
+
+/// Corners of a facet.
+template<int D>
+using FacetCorners = std::array<Point<D>, D>;
+
+template<int D>
+FacetCorners<D> corners_of_facet(const Surface<D>& surface, Index facet) {
+    FacetCorners<D> corners;
+    for (std::size_t i = 0; i < D; ++i) {
+        corners[i] = surface.points[surface.facets[facet][i]];
+    }
+    return corners;
+}
+
+/// Two facets whose shared vertices come first, in the same order.
+template<int D>
+struct FacetPair {
+    FacetCorners<D> f;
+    FacetCorners<D> g;
+    std::size_t shared = 0;
+};
+
+template<int D>
+FacetPair<D> pair_of_facets(const Surface<D>& surface, Index first, Index second);
+
+/// Boxes of the facets; that of a facet without extent, or with a coordinate that is no finite number, is
+/// empty.
+template<int D>
+Array<Box<D>> facet_boxes(const Surface<D>& surface);
+
+/// Whether two non-degenerate facets have a point in common that the vertices and edges they share do not
+/// explain. Exact; most neighbours on a smooth or flat surface are cleared by one or two orientations.
+bool meet_elsewhere(const FacetPair<2>& pair);
+bool meet_elsewhere(const FacetPair<3>& pair);
+
+/// A point close to both facets, for messages: on both when they meet, to about one part in a thousand.
+template<int D>
+Point<D> meeting_place(const FacetPair<D>& pair);
+
+extern template Array<Box<2>> facet_boxes<2>(const Surface<2>&);
+extern template Array<Box<3>> facet_boxes<3>(const Surface<3>&);
+extern template FacetPair<2> pair_of_facets<2>(const Surface<2>&, Index, Index);
+extern template FacetPair<3> pair_of_facets<3>(const Surface<3>&, Index, Index);
+extern template Point<2> meeting_place<2>(const FacetPair<2>&);
+extern template Point<3> meeting_place<3>(const FacetPair<3>&);
+
+} // namespace slabhull

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/meshing/cap_blocks.h"
+#include "geometry/meshing/solid_mesher.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/geometry/embedding.h"
+#include "slabhull/geometry/mesh_order.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace slabhull {
+
+namespace {
+
+/// The meshers' indices are ints.
+void require_fits(const Surface<3>& surface) {
+    constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+    if (surface.points.size() > most || surface.facets.size() > most / 3) {
+        throw LimitError{fmt::format("the 3D mesher cannot number {} points and {} facets",
+                                     surface.points.size(), surface.facets.size())};
+    }
+}
+
+void require_sane(const CapOptions& options) {
+    if (!(options.radius_edge >= 1 && options.radius_edge <= 100)) {
+        throw UsageError{
+            fmt::format("the radius-edge bound must be between 1 and 100, not {}", options.radius_edge)};
+    }
+    if (!(options.min_dihedral >= 0 && options.min_dihedral <= 20)) {
+        throw UsageError{fmt::format("the wanted dihedral angle must be between 0 and 20 degrees, not {}",
+                                     options.min_dihedral)};
+    }
+    if (options.blocks < 0 || options.blocks > most_blocks) {
+        throw UsageError{
+            fmt::format("a cap is meshed in 1 to {} blocks, or 0 to choose them by memory, not {}",
+                        most_blocks, options.blocks)};
+    }
+}
+
+} // namespace
+
+template<>
+CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options) {
+    require_sane(options);
+    require_fits(surface);
+    require_domain_boundary(surface, {}, false); // meshers crash, or never end, on anything else
+    const SizeField<3> size{surface.points, boundary_spacing<3>(surface.points, surface.facets),
+                            options.grading};
+    CapMesh<3> mesh = mesh_in_blocks(surface, size, options);
+    if (options.curve_order) {
+        order_along_curve<3>(mesh, surface.points.size());
+    }
+    verify_cap(mesh, surface);
+    return mesh;
+}
+
+} // namespace slabhull

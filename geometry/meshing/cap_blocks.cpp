@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/meshing/cap_blocks.h"
+
+#include "geometry/meshing/domain_blocks.h"
+#include "geometry/meshing/sliver_repair.h"
+#include "geometry/meshing/solid_mesher.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/core/memory.h"
+#include "slabhull/core/parallel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace slabhull {
+
+namespace {
+
+/// Cells for each cube of the wanted spacing.
+constexpr double cells_per_cube = 7.2;
+/// Bytes for each cell: in the mesher's process, and here while the blocks come in.
+constexpr double tetgen_bytes = 220;
+constexpr double hxt_bytes = 280;
+constexpr double own_bytes = 100;
+/// Part of the memory that is free which the meshing may use.
+constexpr double usable_memory = 0.85;
+
+CapMesh<3> fill(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options) {
+    return options.mesher == SolidMesher::hxt ? fill_with_hxt(surface, size, options)
+                                              : fill_with_tetgen(surface, size, options);
+}
+
+/// What meshing needs with so many blocks, so many of them at once.
+double bytes_for(SolidMesher mesher, double cells, int blocks, int at_once) {
+    const double mesher_bytes = mesher == SolidMesher::hxt ? hxt_bytes : tetgen_bytes;
+    return cells * (own_bytes + mesher_bytes * std::min(1.0, static_cast<double>(at_once) / blocks));
+}
+
+/// A facet of a cell that has no neighbour in its block.
+struct OpenFacet {
+    Facet<3> vertices; ///< ascending
+    Index cell;
+    Index place;
+    friend auto operator<=>(const OpenFacet&, const OpenFacet&) = default;
+};
+
+/// Puts the meshes of blocks together, one after the other.
+class BlockJoiner {
+public:
+    BlockJoiner(const DomainBlocks& blocks, std::size_t expected_cells) {
+        mesh_.points = blocks.points;
+        mesh_.cells.reserve(expected_cells); // untouched memory costs nothing
+        mesh_.neighbors.reserve(expected_cells);
+    }
+
+    void add(const BlockSurface& block, const CapMesh<3>& part);
+    CapMesh<3> finish(std::size_t boundary_facets);
+
+private:
+    CapMesh<3> mesh_;
+    std::vector<OpenFacet> open_;
+};
+
+void BlockJoiner::add(const BlockSurface& block, const CapMesh<3>& part) {
+    const std::size_t given = block.vertex.size();
+    if (part.points.size() < given ||
+        std::memcmp(part.points.data(), block.surface.points.data(), given * sizeof(Point<3>)) != 0) {
+        throw GeometryError{"the mesher's result was refused: it moved or renumbered the points of a block"};
+    }
+    const Index first_cell = checked_index(mesh_.cells.size(), "cells of a cap");
+    const Index first_point = checked_index(mesh_.points.size(), "points of a cap");
+    checked_index(mesh_.cells.size() + part.cells.size(), "cells of a cap");
+    checked_index(mesh_.points.size() + part.points.size(), "points of a cap");
+    mesh_.points.insert(mesh_.points.end(), part.points.begin() + static_cast<std::ptrdiff_t>(given),
+                        part.points.end());
+    for (std::size_t c = 0; c < part.cells.size(); ++c) {
+        Simplex<3> cell = part.cells[c];
+        Neighbors<3> neighbors = part.neighbors[c];
+        for (Index& v : cell) {
+            v = v < given ? block.vertex[v] : first_point + (v - static_cast<Index>(given));
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (neighbors[i] != no_index) {
+                neighbors[i] += first_cell;
+                continue;
+            }
+            Facet<3> facet = outward_facet<3>(cell, static_cast<int>(i));
+            std::sort(facet.begin(), facet.end());
+            open_.push_back({facet, static_cast<Index>(mesh_.cells.size()), static_cast<Index>(i)});
+        }
+        mesh_.cells.push_back(cell);
+        mesh_.neighbors.push_back(neighbors);
+    }
+}
+
+/// Joins the blocks where they have a facet in common.
+CapMesh<3> BlockJoiner::finish(std::size_t boundary_facets) {
+    std::sort(open_.begin(), open_.end());
+    std::size_t alone = open_.size();
+    for (std::size_t k = 0; k + 1 < open_.size(); ++k) {
+        const OpenFacet& a = open_[k];
+        const OpenFacet& b = open_[k + 1];
+        if (a.vertices == b.vertices) {
+            mesh_.neighbors[a.cell][a.place] = b.cell;
+            mesh_.neighbors[b.cell][b.place] = a.cell;
+            alone -= 2;
+            ++k;
+        }
+    }
+    if (alone != boundary_facets) {
+        throw GeometryError{
+            fmt::format("the mesher's result was refused: blocks joined leave {} facets open, "
+                        "and the boundary has {}",
+                        alone, boundary_facets)};
+    }
+    return std::move(mesh_);
+}
+
+CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, const CapOptions& options,
+                         std::size_t at_once, double expected_cells, const Surface<3>& boundary) {
+    BlockJoiner joiner{blocks, static_cast<std::size_t>(expected_cells)};
+    for (std::size_t first = 0; first < blocks.facets.size(); first += at_once) {
+        const std::size_t count = std::min(at_once, blocks.facets.size() - first);
+        std::vector<BlockSurface> surfaces(count);
+        std::vector<CapMesh<3>> parts(count);
+        parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                surfaces[k] = surface_of_block(blocks.points, blocks.facets[first + k]);
+                parts[k] = fill(surfaces[k].surface, size, options);
+            }
+        });
+        for (std::size_t k = 0; k < count; ++k) {
+            joiner.add(surfaces[k], parts[k]);
+            parts[k] = {};
+        }
+    }
+    CapMesh<3> mesh = joiner.finish(boundary.facets.size());
+    repair_slivers(mesh, boundary.points.size(), options.min_dihedral); // interfaces may move now
+    mesh.blocks = static_cast<int>(blocks.facets.size());
+    return mesh;
+}
+
+} // namespace
+
+int blocks_that_fit(SolidMesher mesher, double cells, double bytes) {
+    if (bytes_for(mesher, cells, 1, 1) <= bytes) {
+        return 1;
+    }
+    int blocks = 2;
+    while (blocks < most_blocks && bytes_for(mesher, cells, blocks, 2) > bytes) {
+        blocks *= 2;
+    }
+    return blocks;
+}
+
+CapMesh<3> mesh_in_blocks(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options) {
+    if (options.blocks == 1) {
+        return fill(surface, size, options);
+    }
+    const double memory = usable_memory * static_cast<double>(available_memory());
+    if (options.blocks == 0 &&
+        bytes_for(options.mesher, cells_per_cube * size.cube_count(), 1, 1) <= memory) {
+        return fill(surface, size, options); // even if the domain were the box around it
+    }
+    std::vector<LoadSample> load = sample_load(surface, size);
+    const double cells = cells_per_cube * cubes_in(load);
+    const int count = options.blocks > 0 ? options.blocks : blocks_that_fit(options.mesher, cells, memory);
+    if (count == 1) {
+        return fill(surface, size, options);
+    }
+    const DomainBlocks blocks = cut_domain(surface, size, options.grading.growth, std::move(load), count);
+    int at_once = std::min(thread_count(), count);
+    while (at_once > 1 && bytes_for(options.mesher, cells, count, at_once) > memory) {
+        --at_once;
+    }
+    return mesh_and_join(blocks, size, options, static_cast<std::size_t>(at_once), cells, surface);
+}
+
+} // namespace slabhull

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/meshing/cap_spacing.h"
+#include "geometry/meshing/constrained_delaunay.h"
+#include "geometry/meshing/delaunay_refinement.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/geometry/mesh_order.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <numbers>
+#include <span>
+
+namespace slabhull {
+
+namespace {
+
+/// A tiny edge and no growth would ask for triangles until the memory is full.
+void require_countable(const SizeField<2>& field) {
+    const double wanted = field.cube_count() * 4 / std::numbers::sqrt3;
+    if (!(wanted < static_cast<double>(no_index))) {
+        throw LimitError{
+            fmt::format("the spacing of the boundary and its growth ask for about {:.2g} triangles; allow "
+                        "a larger growth or remove the shortest edges",
+                        wanted)};
+    }
+}
+
+} // namespace
+
+template<>
+CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
+    CapMesh<2> mesh = constrained_delaunay(surface);
+    const std::span<const Point<2>> points{surface.points};
+    const SizeField<2> field{points, boundary_spacing<2>(points, surface.facets), options.grading};
+    require_countable(field);
+    refine_delaunay(mesh, {surface, std::cref(field), options.grading.growth}, options.min_angle);
+
+    order_along_curve<2>(mesh, surface.points.size());
+    verify_cap<2>(mesh, surface);
+    return mesh;
+}
+
+} // namespace slabhull

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// TetGen 1.5 (H. Si, ACM TOMS 41(2), 2015) as the mesher of 3D caps. It crashes on surfaces that cross
+// themselves, prints, keeps global state and throws bare numbers: so it runs in a child process, and what it
+// sends is verified.
+#include "geometry/meshing/solid_mesher.h"
+
+#include "geometry/meshing/hole_seeds.h"
+
+#include <fmt/format.h>
+#include <tetgen.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace slabhull {
+
+namespace {
+
+constexpr std::int32_t out_of_memory = 1; // TetGen's own number for it
+
+// --- In the child
+// ---------------------------------------------------------------------------------------------
+
+/// What TetGen's callback, a bare function, looks at.
+const SizeField<3>* wanted_size = nullptr;
+
+double squared_distance(const REAL* p, const REAL* q) {
+    const double x = p[0] - q[0];
+    const double y = p[1] - q[1];
+    const double z = p[2] - q[2];
+    return x * x + y * y + z * z;
+}
+
+/// Whether a tetrahedron is to be split for its size. TetGen hands in a volume of 0, so look at the corners.
+/// (Its own way, a size per boundary vertex, interpolates between opposite walls and knows neither growth nor
+/// a largest size.)
+bool too_large(REAL* a, REAL* b, REAL* c, REAL* d, REAL*, REAL) {
+    const std::array<const REAL*, 4> corners{a, b, c, d};
+    Point<3> centroid{};
+    double longest = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            centroid[k] += corners[i][k] / 4;
+        }
+        for (std::size_t j = 0; j < i; ++j) {
+            longest = std::max(longest, squared_distance(corners[i], corners[j]));
+        }
+    }
+    const double bound = longest_edge * (*wanted_size)(centroid);
+    return longest > bound * bound;
+}
+
+/// The surface in TetGen's terms. It is never destroyed, for the child just ends: its lists need not come
+/// from `new`.
+struct TetgenInput {
+    TetgenInput(const Surface<3>& surface, const std::vector<Point<3>>& holes);
+
+    tetgenio plc;
+    std::vector<int> corners;
+    std::vector<tetgenio::polygon> triangles;
+    std::vector<tetgenio::facet> facets;
+};
+
+TetgenInput::TetgenInput(const Surface<3>& surface, const std::vector<Point<3>>& holes)
+    : corners(3 * surface.facets.size()), triangles(surface.facets.size()), facets(surface.facets.size()) {
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        std::copy(surface.facets[f].begin(), surface.facets[f].end(),
+                  corners.begin() + 3 * static_cast<long>(f));
+        triangles[f] = {corners.data() + 3 * f, 3};
+        facets[f] = {&triangles[f], 1, nullptr, 0};
+    }
+    // TetGen only reads what it is given
+    plc.pointlist = const_cast<REAL*>(surface.points.data()->data());
+    plc.numberofpoints = static_cast<int>(surface.points.size());
+    plc.facetlist = facets.data();
+    plc.numberoffacets = static_cast<int>(facets.size());
+    plc.holelist = const_cast<REAL*>(holes.empty() ? nullptr : holes.data()->data());
+    plc.numberofholes = static_cast<int>(holes.size());
+    plc.tetunsuitable = too_large;
+}
+
+/// TetGen's lists are ours bit for bit: its cells are positively oriented too, neighbour i is across from
+/// corner i, and its -1 for no neighbour has the bits of no_index.
+void send_mesh(const Send& send, const tetgenio& mesh) {
+    static_assert(sizeof(int) == sizeof(Index) && sizeof(Point<3>) == 3 * sizeof(REAL));
+    const MesherHeading heading{0, mesh.numberofpoints, mesh.numberoftetrahedra, mesh.numberoftetrahedra, {}};
+    const std::size_t list = static_cast<std::size_t>(mesh.numberoftetrahedra) * sizeof(Simplex<3>);
+    send(&heading, sizeof heading);
+    send(mesh.pointlist, static_cast<std::size_t>(mesh.numberofpoints) * sizeof(Point<3>));
+    send(mesh.tetrahedronlist, list);
+    send(mesh.neighborlist, list);
+}
+
+/// p: a boundary is given; Y: keep it; n: neighbours; Q: quiet; q: bounds on radius-edge ratio and dihedral
+/// angle.
+std::string switches(const CapOptions& options) {
+    return fmt::format("pYnQq{:.4f}/{:.4f}", options.radius_edge, options.min_dihedral);
+}
+
+void mesh_and_send(const Surface<3>& surface, const std::vector<Point<3>>& holes, const SizeField<3>& size,
+                   const CapOptions& options, const Send& send) {
+    std::int32_t status = 0;
+    try {
+        wanted_size = &size;
+        auto* input = new TetgenInput{surface, holes};
+        auto* mesh = new tetgenio; // neither is deleted: the child ends
+        tetrahedralize(switches(options).data(), &input->plc, mesh);
+        return send_mesh(send, *mesh);
+    } catch (const int thrown) {
+        status = thrown;
+    } catch (const std::bad_alloc&) {
+        status = out_of_memory;
+    }
+    const MesherHeading heading{status, 0, 0, 0, {}};
+    send(&heading, sizeof heading);
+}
+
+// --- In the parent
+// ----------------------------------------------------------------------------------------------
+
+std::string thrown_in_words(const MesherHeading& heading) {
+    switch (heading.status) {
+    case out_of_memory:
+        return "ran out of memory";
+    case 3:
+        return "found that the surface crosses itself";
+    case 4:
+    case 5:
+        return "found facets or vertices too close to each other to tell apart";
+    case 10:
+        return "did not accept the surface";
+    default:
+        return fmt::format("gave up with its internal error {}", heading.status);
+    }
+}
+
+} // namespace
+
+bool has_tetgen() {
+    return true;
+}
+
+CapMesh<3> fill_with_tetgen(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options) {
+    const std::vector<Point<3>> holes = hole_seeds(surface);
+    return fill_in_child(
+        surface, [&](const Send& send) { mesh_and_send(surface, holes, size, options, send); },
+        thrown_in_words);
+}
+
+} // namespace slabhull

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/meshing/solid_mesher.h"
+
+#include "slabhull/core/error.h"
+
+namespace slabhull {
+
+bool has_hxt() {
+    return false;
+}
+
+CapMesh<3> fill_with_hxt(const Surface<3>&, const SizeField<3>&, const CapOptions&) {
+    throw UsageError{"this build has no Gmsh: configure it with -DSLABHULL_GMSH=ON to mesh 3D caps with HXT"};
+}
+
+} // namespace slabhull

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/meshing/domain_blocks.h"
+
+#include "geometry/embedding/facet_pair.h"
+#include "geometry/meshing/block_interface.h"
+#include "geometry/meshing/plane_frame.h"
+#include "geometry/meshing/surface_division.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/geometry/embedding.h"
+#include "slabhull/topology/adjacency.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace slabhull {
+
+namespace {
+
+/// How far a block's load may be from its share, as part of that: planes nearer to it come first, those that
+/// graze the boundary last.
+constexpr std::array<double, 4> imbalances{0.01, 0.03, 0.1, 0.3};
+/// Planes looked at for each direction, and tried of them all.
+constexpr std::size_t offsets = 7;
+constexpr std::size_t tries = 8;
+/// Facets within so many spacings of a plane, the cosine of the angle between the normals above this, lie
+/// along it: they would make thin wedges. What one counts in triangles of the interface.
+constexpr double near_plane = 1.5;
+constexpr double along_plane = 0.7;
+constexpr double price_along = 10;
+
+struct Block {
+    Array<Facet<3>> facets;
+    std::vector<LoadSample> load;
+};
+
+struct CutPlane {
+    Point<3> normal{};
+    double offset = 0;
+    double triangles = 0; ///< of the interface
+    double along = 0;     ///< facets of the boundary that lie along it
+
+    double price() const { return triangles + price_along * along; }
+};
+
+/// The axes, and the diagonals of their planes and of the cube.
+std::vector<Point<3>> directions() {
+    std::vector<Point<3>> all;
+    for (int code = 14; code < 27; ++code) { // one of each opposite pair
+        const Point<3> d{code % 3 - 1.0, code / 3 % 3 - 1.0, code / 9 - 1.0};
+        all.push_back(times(1 / norm(d), d));
+    }
+    return all;
+}
+
+/// One block and the planes that might cut it.
+class BlockCutter {
+public:
+    BlockCutter(const Array<Point<3>>& points, const Block& block, const SizeField<3>& size, double growth)
+        : block_{block}, size_{size}, growth_{growth}, part_{surface_of_block(points, block.facets)},
+          adjacency_{build_adjacency<2>(part_.surface.facets, part_.surface.points.size())} {
+        for (const Point<3>& p : part_.surface.points) {
+            spacing_.push_back(size_(p));
+        }
+    }
+
+    /// The part below a plane, which wants `share` of the load, and that above; adds the interface's points.
+    std::optional<std::pair<Block, Block>> run(double share, Array<Point<3>>& points) const {
+        std::vector<CutPlane> grazing;
+        for (const double imbalance : imbalances) {
+            std::vector<CutPlane> planes = planes_near(share, imbalance);
+            const auto clear = std::stable_partition(planes.begin(), planes.end(),
+                                                     [](const CutPlane& plane) { return plane.along == 0; });
+            grazing.insert(grazing.end(), clear, planes.end());
+            planes.erase(clear, planes.end());
+            if (auto parts = cut_by_best(std::move(planes), points)) {
+                return parts;
+            }
+        }
+        return cut_by_best(std::move(grazing), points);
+    }
+
+private:
+    std::vector<CutPlane> planes_near(double share, double imbalance) const;
+    std::vector<CutPlane> planes_across(const Point<3>& normal, double share, double imbalance) const;
+    double triangles_in(const CutPlane& plane) const;
+    double facets_along(const CutPlane& plane) const;
+    std::optional<std::pair<Block, Block>> cut_by_best(std::vector<CutPlane> planes,
+                                                       Array<Point<3>>& points) const;
+    std::pair<Block, Block> cut(const PlaneFrame& plane, Array<Point<3>>& points) const;
+    Array<Facet<3>> side(const std::vector<char>& above, char which) const;
+    void require_sound(const BlockInterface& interface, const Array<Facet<3>>& facets) const;
+
+    const Block& block_;
+    const SizeField<3>& size_;
+    double growth_;
+    BlockSurface part_;
+    Adjacency<2> adjacency_;
+    std::vector<double> spacing_; ///< of each vertex
+};
+
+std::vector<CutPlane> BlockCutter::planes_near(double share, double imbalance) const {
+    const std::vector<Point<3>> normals = directions();
+    std::vector<std::vector<CutPlane>> found(normals.size());
+    parallel_for(normals.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            found[k] = planes_across(normals[k], share, imbalance);
+        }
+    });
+    std::vector<CutPlane> planes;
+    for (const std::vector<CutPlane>& some : found) {
+        planes.insert(planes.end(), some.begin(), some.end());
+    }
+    return planes;
+}
+
+std::vector<CutPlane> BlockCutter::planes_across(const Point<3>& normal, double share,
+                                                 double imbalance) const {
+    std::vector<std::pair<double, double>> along; // where, how much
+    for (const LoadSample& sample : block_.load) {
+        along.emplace_back(dot(normal, sample.at), sample.cubes);
+    }
+    std::sort(along.begin(), along.end());
+    const double total = cubes_in(block_.load);
+    std::vector<CutPlane> planes;
+    double sum = 0;
+    for (std::size_t k = 0; k < along.size() && planes.size() < offsets; ++k) {
+        sum += along[k].second;
+        const double place = 2.0 * static_cast<double>(planes.size()) / (offsets - 1) - 1;
+        if (sum >= share * (1 + imbalance * place) * total) {
+            CutPlane plane{normal, along[k].first};
+            plane.triangles = triangles_in(plane);
+            plane.along = facets_along(plane);
+            planes.push_back(plane);
+        }
+    }
+    return planes;
+}
+
+/// What the interface will have, roughly.
+double BlockCutter::triangles_in(const CutPlane& plane) const {
+    double triangles = 0;
+    for (const LoadSample& sample : block_.load) {
+        if (std::abs(dot(plane.normal, sample.at) - plane.offset) < sample.spacing) {
+            triangles += sample.cubes; // in a slice two spacings thick; two triangles to a square
+        }
+    }
+    return triangles;
+}
+
+double BlockCutter::facets_along(const CutPlane& plane) const {
+    const auto& p = part_.surface.points;
+    double count = 0;
+    for (const Facet<3>& facet : part_.surface.facets) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Index v : facet) {
+            const double height = dot(plane.normal, p[v]) - plane.offset;
+            nearest = std::min(nearest, std::abs(height) / spacing_[v]);
+        }
+        if (nearest < near_plane) {
+            const Point<3> normal = cross(minus(p[facet[1]], p[facet[0]]), minus(p[facet[2]], p[facet[0]]));
+            const double cosine = std::abs(dot(plane.normal, normal)) / norm(normal);
+            count += cosine > along_plane ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+std::optional<std::pair<Block, Block>> BlockCutter::cut_by_best(std::vector<CutPlane> planes,
+                                                                Array<Point<3>>& points) const {
+    std::stable_sort(planes.begin(), planes.end(),
+                     [](const CutPlane& a, const CutPlane& b) { return a.price() < b.price(); });
+    planes.resize(std::min(planes.size(), tries));
+    for (const CutPlane& plane : planes) {
+        try {
+            return cut(PlaneFrame{plane.normal, plane.offset}, points);
+        } catch (const GeometryError&) { // this plane will not do
+        }
+    }
+    return std::nullopt;
+}
+
+Array<Facet<3>> BlockCutter::side(const std::vector<char>& above, char which) const {
+    Array<Facet<3>> facets;
+    for (std::size_t f = 0; f < above.size(); ++f) {
+        if (above[f] == which) {
+            facets.push_back(part_.surface.facets[f]);
+        }
+    }
+    return facets;
+}
+
+/// Each side is the boundary of a domain.
+void BlockCutter::require_sound(const BlockInterface& interface, const Array<Facet<3>>& facets) const {
+    Array<Point<3>> points = part_.surface.points;
+    points.insert(points.end(), interface.points.begin(), interface.points.end());
+    require_domain_boundary<3>(surface_of_block(points, facets).surface, {}, false);
+}
+
+std::pair<Block, Block> BlockCutter::cut(const PlaneFrame& plane, Array<Point<3>>& points) const {
+    std::vector<double> height;
+    for (const Point<3>& p : part_.surface.points) {
+        height.push_back(plane.height(p));
+    }
+    const std::vector<char> above = divide_surface(part_.surface, adjacency_, height, spacing_);
+    const Array<Facet<2>> rim = edges_between(part_.surface, adjacency_, above);
+    const BlockInterface interface = span_curves(part_.surface.points, rim, plane, size_, growth_);
+
+    std::array<Array<Facet<3>>, 2> sides{side(above, 0), side(above, 1)};
+    for (Facet<3> facet : interface.facets) {
+        sides[0].push_back(facet);
+        std::swap(facet[0], facet[1]);
+        sides[1].push_back(facet);
+    }
+    for (Array<Facet<3>>& facets : sides) {
+        require_sound(interface, facets);
+        const std::size_t given = part_.vertex.size();
+        for (Facet<3>& facet : facets) {
+            for (Index& v : facet) {
+                v = v < given ? part_.vertex[v] : checked_index(points.size() + v - given, "points of a cap");
+            }
+        }
+    }
+    points.insert(points.end(), interface.points.begin(), interface.points.end());
+    std::pair<Block, Block> parts{{std::move(sides[0]), {}}, {std::move(sides[1]), {}}};
+    for (const LoadSample& sample : block_.load) {
+        (plane.height(sample.at) > 0 ? parts.second : parts.first).load.push_back(sample);
+    }
+    return parts;
+}
+
+class DomainCutter {
+public:
+    DomainCutter(const SizeField<3>& size, double growth) : size_{size}, growth_{growth} {}
+
+    DomainBlocks run(const Surface<3>& surface, std::vector<LoadSample> load, int count) {
+        result_.points = surface.points;
+        divide({surface.facets, std::move(load)}, count);
+        return std::move(result_);
+    }
+
+private:
+    void divide(Block block, int count) {
+        if (count > 1) {
+            const int below = count / 2;
+            auto parts = BlockCutter{result_.points, block, size_, growth_}.run(
+                static_cast<double>(below) / count, result_.points);
+            if (parts) {
+                block = {};
+                divide(std::move(parts->first), below);
+                divide(std::move(parts->second), count - below);
+                return;
+            }
+        }
+        result_.facets.push_back(std::move(block.facets));
+    }
+
+    const SizeField<3>& size_;
+    double growth_;
+    DomainBlocks result_;
+};
+
+} // namespace
+
+DomainBlocks cut_domain(const Surface<3>& surface, const SizeField<3>& size, double growth,
+                        std::vector<LoadSample> load, int count) {
+    return DomainCutter{size, growth}.run(surface, std::move(load), count);
+}
+
+BlockSurface surface_of_block(const Array<Point<3>>& points, const Array<Facet<3>>& facets) {
+    Array<Index> fresh;
+    fresh.assign(points.size(), no_index);
+    for (const Facet<3>& facet : facets) {
+        for (const Index v : facet) {
+            fresh[v] = 0;
+        }
+    }
+    BlockSurface block;
+    for (Index v = 0; v < points.size(); ++v) {
+        if (fresh[v] == 0) {
+            fresh[v] = static_cast<Index>(block.vertex.size());
+            block.vertex.push_back(v);
+            block.surface.points.push_back(points[v]);
+        }
+    }
+    for (const Facet<3>& facet : facets) {
+        block.surface.facets.push_back({fresh[facet[0]], fresh[facet[1]], fresh[facet[2]]});
+    }
+    block.surface.patch.assign(facets.size(), 0);
+    return block;
+}
+
+} // namespace slabhull

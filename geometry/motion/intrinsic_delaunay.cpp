@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/motion/intrinsic_delaunay.h"
+
+#include "geometry/basics/vector_algebra.h"
+
+#include "slabhull/topology/adjacency.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slabhull::detail {
+
+namespace {
+
+/// Cotangent of the angle between sides of lengths b and c, opposite to a. Kahan's order of the sums keeps
+/// the area of needles accurate. A triangle that rounding has flattened gets a large, finite value.
+double cotangent(double a, double b, double c) {
+    std::array<double, 3> sides{a, b, c};
+    std::sort(sides.begin(), sides.end());
+    const auto [small, middle, large] = sides;
+    const double squared = (large + (middle + small)) * (small - (large - middle)) *
+                           (small + (large - middle)) * (large + (middle - small));
+    const double four_areas = std::max(std::sqrt(std::max(squared, 0.0)), 1e-14 * large * large);
+    return (b * b + c * c - a * a) / four_areas;
+}
+
+/// One of the two directed copies of an edge, with its triangle on the left.
+using HalfEdge = Index;
+
+/// Triangles known by their vertices and the lengths of their edges. A flip of the half-edge h from b to c:
+///
+///            c                  c
+///          / | \              /   \             .
+///        a   |   d    -->   a - - - d
+///          \ | /              \   /             .
+///            b                  b
+class IntrinsicTriangulation {
+public:
+    IntrinsicTriangulation(std::span<const Point<3>> points, std::span<const Facet<3>> facets) {
+        for (const Facet<3>& facet : facets) {
+            const auto first = static_cast<HalfEdge>(from_.size());
+            for (Index i = 0; i < 3; ++i) {
+                from_.push_back(facet[i]);
+                next_.push_back(first + (i + 1) % 3);
+                length_.push_back(norm(minus(points[facet[i]], points[facet[(i + 1) % 3]])));
+            }
+        }
+        find_twins(build_adjacency<2>(facets, points.size()));
+    }
+
+    /// Bounded, since rounding might turn needles to and fro for ever; weights then stay a little negative.
+    void make_delaunay() {
+        std::vector<HalfEdge> suspects;
+        for (HalfEdge h = 0; h < twin_.size(); ++h) {
+            if (twin_[h] != no_index && h < twin_[h]) {
+                suspects.push_back(h);
+            }
+        }
+        constexpr std::size_t flips_per_edge = 100;
+        std::size_t flips_left = flips_per_edge * suspects.size();
+        while (!suspects.empty() && flips_left > 0) {
+            const HalfEdge h = suspects.back();
+            suspects.pop_back();
+            if (wants_flip(h)) {
+                flip(h);
+                --flips_left;
+                for (const HalfEdge side : {h, twin_[h]}) {
+                    suspects.push_back(next_[side]);
+                    suspects.push_back(next_[next_[side]]);
+                }
+            }
+        }
+    }
+
+    std::vector<WeightedEdge> edges() const {
+        std::vector<WeightedEdge> edges;
+        for (HalfEdge h = 0; h < twin_.size(); ++h) {
+            if (twin_[h] == no_index || h < twin_[h]) {
+                const double other = twin_[h] == no_index ? 0 : cotangent_opposite(twin_[h]);
+                edges.push_back({from_[h], to(h), 0.5 * (cotangent_opposite(h) + other)});
+            }
+        }
+        return edges;
+    }
+
+private:
+    void find_twins(const Adjacency<2>& adjacency) {
+        twin_.assign(from_.size(), no_index);
+        for (Index f = 0; f < adjacency.neighbors.size(); ++f) {
+            for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) { // from vertex h % 3, so opposite to the one before
+                const Index across = adjacency.neighbors[f][(h + 2) % 3];
+                for (Index i = 0; across != no_index && i < 3; ++i) {
+                    if (from_[3 * across + i] == to(h) && to(3 * across + i) == from_[h]) {
+                        twin_[h] = 3 * across + i;
+                    }
+                }
+            }
+        }
+    }
+
+    Index to(HalfEdge h) const { return from_[next_[h]]; }
+
+    double cotangent_opposite(HalfEdge h) const {
+        return cotangent(length_[h], length_[next_[h]], length_[next_[next_[h]]]);
+    }
+
+    bool wants_flip(HalfEdge h) const {
+        if (twin_[h] == no_index) {
+            return false;
+        }
+        constexpr double rounding = 1e-10; // squares may be cut either way
+        const double left = cotangent_opposite(h);
+        const double right = cotangent_opposite(twin_[h]);
+        return left + right < -rounding * (std::abs(left) + std::abs(right) + 1);
+    }
+
+    /// The third corner of a half-edge's triangle, laid in the plane: the half-edge runs along the first axis
+    /// from the origin.
+    Point<2> unfolded_corner(HalfEdge h) const {
+        const double base = length_[h];
+        const double to_end = length_[next_[h]];
+        const double to_start = length_[next_[next_[h]]];
+        const double x = (base * base + to_start * to_start - to_end * to_end) / (2 * base);
+        return {x, std::sqrt(std::max(to_start * to_start - x * x, 0.0))};
+    }
+
+    void make_triangle(HalfEdge h, HalfEdge second, HalfEdge third) {
+        next_[h] = second;
+        next_[second] = third;
+        next_[third] = h;
+    }
+
+    /// Needs: a negative weight, which implies that the two triangles make a convex quadrilateral.
+    void flip(HalfEdge h) {
+        const HalfEdge t = twin_[h];
+        const HalfEdge ca = next_[h];
+        const HalfEdge ab = next_[ca];
+        const HalfEdge bd = next_[t];
+        const HalfEdge dc = next_[bd];
+        const Point<2> a = unfolded_corner(h);
+        const Point<2> d = unfolded_corner(t); // which runs the other way
+        length_[h] = length_[t] = std::hypot(a[0] - (length_[h] - d[0]), a[1] + d[1]);
+        from_[h] = from_[ab];
+        from_[t] = from_[dc];
+        make_triangle(h, dc, ca);
+        make_triangle(t, ab, bd);
+    }
+
+    // By half-edge.
+    std::vector<Index> from_;
+    std::vector<HalfEdge> next_; ///< in its triangle, counter-clockwise
+    std::vector<HalfEdge> twin_; ///< the other way along the same edge; no_index on the rim
+    std::vector<double> length_;
+};
+
+} // namespace
+
+std::vector<WeightedEdge> cotangent_edges(std::span<const Point<3>> points,
+                                          std::span<const Facet<3>> facets) {
+    IntrinsicTriangulation triangulation{points, facets};
+    triangulation.make_delaunay();
+    return triangulation.edges();
+}
+
+} // namespace slabhull::detail

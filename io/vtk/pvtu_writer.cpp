@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The format is described in "VTK File Formats" (Kitware), section "Parallel file formats".
+#include "slabhull/io/files.h"
+
+#include "io/mesh/column_stream.h"
+#include "io/mesh/mesh_pieces.h"
+#include "io/vtk/vtk_names.h"
+#include "io/vtk/xml_text.h"
+
+#include <fmt/format.h>
+
+namespace slabhull::io {
+
+namespace {
+
+const char* type_of(const DataColumn& data) {
+    switch (data.type) {
+    case Scalar::int64:
+        return vtk_name<std::int64_t>();
+    case Scalar::int32:
+        return vtk_name<std::int32_t>();
+    case Scalar::float64:
+        break;
+    }
+    return vtk_name<double>();
+}
+
+std::string array_tag(const char* type, const std::string& name, int components) {
+    return fmt::format("<PDataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"/>\n", type,
+                       escaped(name), components);
+}
+
+std::string section(const char* name, const std::vector<DataColumn>& data) {
+    std::string xml = fmt::format("<{}{}>\n", name, global_ids_attribute(data));
+    for (const DataColumn& column : data) {
+        xml += array_tag(type_of(column), column.name, components_of(column));
+    }
+    return xml + fmt::format("</{}>\n", name);
+}
+
+/// What all pieces have in common.
+std::string head_of(const MeshColumns& piece) {
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
+           "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PUnstructuredGrid GhostLevel=\"0\">\n" +
+           section("PPointData", piece.point_data) + section("PCellData", piece.cell_data) + "<PPoints>\n" +
+           array_tag(vtk_name<double>(), "Points", 3) + "</PPoints>\n";
+}
+
+} // namespace
+
+void write_pvtu(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
+                std::size_t pieces, VtuEncoding encoding) {
+    MeshPieces parts{mesh, pieces};
+    std::string xml;
+    for (std::size_t number = 0; !parts.at_end(); ++number) {
+        const MeshPiece piece = parts.next();
+        const std::filesystem::path name = piece_path(path, number, ".vtu");
+        if (number == 0) {
+            xml = head_of(piece.mesh);
+        }
+        AtomicFile& file = files.open(name);
+        write_vtu(file, piece.mesh, encoding);
+        file.finish();
+        xml += fmt::format("<Piece Source=\"{}\"/>\n", escaped(name.filename().string()));
+    }
+    files.open(path).write(xml + "</PUnstructuredGrid>\n</VTKFile>\n");
+}
+
+} // namespace slabhull::io

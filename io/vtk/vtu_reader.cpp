@@ -1,0 +1,571 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The format is described in "VTK File Formats" (Kitware), section "XML File Formats".
+#include "slabhull/io/files.h"
+
+#include "io/files/byte_order.h"
+#include "io/files/file_cursor.h"
+#include "io/vtk/vtk_names.h"
+#include "io/vtk/vtu_payload.h"
+#include "io/vtk/vtu_pieces.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/core/text.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <fmt/format.h>
+#include <iterator>
+#include <optional>
+#include <pugixml.hpp>
+#include <utility>
+
+namespace slabhull::io {
+
+namespace {
+
+/// An array's values as they stand in the file: bytes, or text.
+struct Stored {
+    FileRange range;
+    bool is_text = false;
+    bool is_base64 = false;
+};
+
+constexpr std::uint64_t any_count = std::numeric_limits<std::uint64_t>::max();
+
+/// The product, or the largest number where it is larger.
+std::uint64_t times(std::uint64_t a, std::uint64_t b) {
+    return b > 0 && a > any_count / b ? any_count : a * b;
+}
+
+class VtuReader {
+public:
+    explicit VtuReader(FileBytes& file) : file_{file}, skeleton_{file} { soup_.path = file.path().string(); }
+
+    Soup read(bool may_be_empty) {
+        parse_xml();
+        const pugi::xml_node grid = open_grid();
+        for (const pugi::xml_node node : grid.child("FieldData").children()) {
+            soup_.field_data.push_back(field_array(node));
+        }
+        count_all(grid);
+        for (const pugi::xml_node piece : grid.children("Piece")) {
+            read_piece(piece);
+        }
+        if (dimension_ == 0 && !(may_be_empty && soup_.points.empty())) {
+            fail(grid, "there are no cells");
+        }
+        return std::move(soup_);
+    }
+
+private:
+    [[noreturn]] void fail_at(std::ptrdiff_t byte, const std::string& text) const {
+        throw InputError(fmt::format("{}: byte {}: {}", soup_.path, byte, readable(text)),
+                         {Entity{"byte", byte, {}}});
+    }
+    [[noreturn]] void fail(const pugi::xml_node& node, const std::string& text) const {
+        const std::string name = node.attribute("Name").value();
+        const std::string what = name.empty() ? node.name() : "array \"" + name + "\"";
+        fail_at(skeleton_.in_file(node.offset_debug()), fmt::format("{}: {}", what, text));
+    }
+
+    // --- XML ---
+
+    void parse_xml() {
+        std::string& xml = skeleton_.xml();
+        const pugi::xml_parse_result result =
+            document_.load_buffer_inplace(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
+        if (!result) {
+            fail_at(skeleton_.in_file(result.offset),
+                    fmt::format("this is no VTU file: {}", result.description()));
+        }
+    }
+
+    pugi::xml_node open_grid() {
+        const pugi::xml_node file = document_.child("VTKFile");
+        const std::string_view type = file.attribute("type").value();
+        if (type != "UnstructuredGrid") {
+            fail_at(0, fmt::format("a VTKFile of type UnstructuredGrid was expected, not \"{}\"", type));
+        }
+        const std::string_view order = file.attribute("byte_order").as_string("LittleEndian");
+        if (order != "LittleEndian" && order != "BigEndian") {
+            fail(file, fmt::format("the byte order \"{}\" is not known", order));
+        }
+        format_.swapped = (order == "LittleEndian") != (std::endian::native == std::endian::little);
+        const std::string_view word = file.attribute("header_type").as_string("UInt32");
+        if (word != "UInt32" && word != "UInt64") {
+            fail(file, fmt::format("the header type \"{}\" is not known", word));
+        }
+        format_.word_bytes = word == "UInt64" ? sizeof(std::uint64_t) : sizeof(std::uint32_t);
+        format_.compressor = compressor_of(file);
+        return file.child("UnstructuredGrid");
+    }
+
+    Compressor compressor_of(const pugi::xml_node& file) const {
+        const std::string_view name = file.attribute("compressor").value();
+        if (name == "vtkZLibDataCompressor") {
+            return Compressor::zlib;
+        }
+        if (name == "vtkLZ4DataCompressor") {
+            return Compressor::lz4;
+        }
+        if (!name.empty()) {
+            fail(file,
+                 fmt::format("files compressed by {} are not read; save it with zlib, LZ4 or without", name));
+        }
+        return Compressor::none;
+    }
+
+    std::uint64_t count_attribute(const pugi::xml_node& node, const char* name) const {
+        const std::string_view text = node.attribute(name).value();
+        std::uint64_t value = 0;
+        const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (problem != std::errc{} || stop != text.data() + text.size()) {
+            fail(node, fmt::format("{}=\"{}\" is no count", name, text));
+        }
+        return value;
+    }
+
+    // --- arrays ---
+
+    Stored stored(const pugi::xml_node& node) const {
+        const std::string_view format = node.attribute("format").as_string("ascii");
+        if (format == "ascii" || format == "binary") {
+            return {skeleton_.text(node.text().data().offset_debug()), format == "ascii", true};
+        }
+        if (format != "appended") {
+            fail(node, fmt::format("the format \"{}\" is not known", format));
+        }
+        FileRange range = skeleton_.appended();
+        const std::uint64_t offset = count_attribute(node, "offset");
+        if (offset > range.end - range.begin) {
+            fail(node, fmt::format("offset {} lies beyond the end of the file", offset));
+        }
+        range.begin += offset;
+        return {range, false, skeleton_.appended_is_base64()};
+    }
+
+    /// All values of an array, which is of that type, one after the other: start(n), which throws unless so
+    /// many are wanted, gives their place, and then each(place, i, value) gets them, the first before all
+    /// others, from several threads. Packed arrays that hold more than `count` are refused; any_count: any
+    /// number is wanted.
+    template<class Start, class Each>
+    void values(const pugi::xml_node& node, std::string_view type, std::uint64_t count, const Start& start,
+                const Each& each) {
+        const bool known = with_vtk_type(type, [&](auto zero) {
+            using S = decltype(zero);
+            const Stored source = stored(node);
+            if (source.is_text) {
+                parse_text<S>(node, source.range, count, start, each);
+            } else {
+                unpack_values<S>(node, source, times(count, sizeof(S)), start, each);
+            }
+        });
+        if (!known) {
+            fail(node, fmt::format("the type \"{}\" is not read", type));
+        }
+    }
+
+    /// Arrays that share bytes could make a small file a large mesh.
+    template<class S, class Start, class Each>
+    void unpack_values(const pugi::xml_node& node, const Stored& source, std::uint64_t most,
+                       const Start& start, const Each& each) {
+        decltype(start(0)) place{};
+        std::uint64_t done = 0;
+        const auto begin = [&](std::uint64_t bytes) {
+            if (bytes % sizeof(S) != 0) {
+                fail(node, fmt::format("{} bytes are no whole number of values", bytes));
+            }
+            place = start(bytes / sizeof(S));
+        };
+        const auto take = [&](std::string_view bytes) {
+            const std::uint64_t count = bytes.size() / sizeof(S);
+            for (std::uint64_t i = 0; i < count; ++i) {
+                each(place, done + i, load<S>(bytes.data() + i * sizeof(S), format_.swapped));
+            }
+            done += count;
+        };
+        try {
+            if (const auto plain = plain_payload(format_, file_, source.range, source.is_base64)) {
+                begin(plain->end - plain->begin);
+                copy_values<S>(*plain, [&](std::uint64_t i, S value) { each(place, i, value); });
+                consumed_ += plain->end - source.range.begin;
+            } else {
+                consumed_ +=
+                    read_payload(format_, file_, source.range, source.is_base64, most, {begin, take});
+            }
+        } catch (const PayloadError& problem) {
+            fail(node, problem.what());
+        }
+        if (consumed_ > file_.size()) {
+            fail(node, "its data overlap those of other arrays");
+        }
+    }
+
+    /// Calls use(i, value) for all values in that range: for the first ones before all others, for these from
+    /// several threads, which take them from the file past its window.
+    template<class S, class Use>
+    void copy_values(FileRange range, const Use& use) const {
+        constexpr std::size_t piece = std::size_t{1} << 17;
+        const std::size_t count = (range.end - range.begin) / sizeof(S);
+        const std::size_t first = std::min(count, piece);
+        copy_values<S>(range.begin, 0, first, use);
+        parallel_for(count - first, piece, [&](std::size_t begin, std::size_t end) {
+            copy_values<S>(range.begin, first + begin, first + end, use);
+        });
+    }
+
+    /// Values [begin, end) of those that stand from that byte on.
+    template<class S, class Use>
+    void copy_values(std::size_t byte, std::size_t begin, std::size_t end, const Use& use) const {
+        constexpr std::size_t chunk = (std::size_t{1} << 15) / sizeof(S); // small enough to stay in the cache
+        std::array<S, chunk> values;
+        for (std::size_t done = begin; done < end; done += chunk) {
+            const std::size_t count = std::min(chunk, end - done);
+            const std::size_t place = byte + done * sizeof(S);
+            file_.copy(place, place + count * sizeof(S), reinterpret_cast<char*>(values.data()));
+            if (format_.swapped) {
+                std::transform(values.begin(), values.begin() + count, values.begin(), [](const S& value) {
+                    return load<S>(reinterpret_cast<const char*>(&value), true);
+                });
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                use(done + i, values[i]);
+            }
+        }
+    }
+
+    template<class S, class Start, class Each>
+    void parse_text(const pugi::xml_node& node, FileRange range, std::uint64_t count, const Start& start,
+                    const Each& each) {
+        FileCursor cursor{
+            file_, range.begin, range.end,
+            fmt::format("{}: array \"{}\"", soup_.path, readable(node.attribute("Name").value()))};
+        const bool too_many = count > (range.end - range.begin + 1) / 2;
+        const std::uint64_t wanted = too_many ? words_in(range) : count;
+        const auto place = start(wanted);
+        for (std::uint64_t i = 0; i < wanted; ++i) {
+            if (cursor.at_end()) {
+                start(i);
+            }
+            each(place, i, text_value<S>(cursor));
+        }
+        if (!cursor.at_end()) {
+            start(words_in(range));
+        }
+    }
+
+    template<class S>
+    static S text_value(FileCursor& cursor) {
+        if constexpr (sizeof(S) > 1) {
+            return cursor.parsed<S>("a number");
+        } else { // a number, not a character
+            const int value = cursor.parsed<int>("a number");
+            if (!std::in_range<S>(value)) {
+                cursor.fail(fmt::format("{} does not fit its type", value));
+            }
+            return static_cast<S>(value);
+        }
+    }
+
+    std::uint64_t words_in(FileRange range) {
+        FileCursor cursor{file_, range.begin, range.end, {}};
+        std::uint64_t words = 0;
+        while (!cursor.word().empty()) {
+            ++words;
+        }
+        return words;
+    }
+
+    // --- mesh ---
+
+    /// Addresses for all that the pieces claim, so that the arrays never move: memory is taken only by what
+    /// comes. What would be many times the file must prove itself piece by piece.
+    void count_all(const pugi::xml_node& grid) {
+        for (const pugi::xml_node piece : grid.children("Piece")) {
+            all_points_ += count_attribute(piece, "NumberOfPoints");
+            all_cells_ += count_attribute(piece, "NumberOfCells");
+        }
+    }
+
+    template<class T>
+    void reserve(Array<T>& values, std::uint64_t count) const {
+        if (times(count, sizeof(T)) / 4 <= file_.size()) {
+            values.reserve(count);
+        }
+    }
+
+    /// Room for `more` values behind those that there are; the place of the first.
+    template<class T>
+    T* grow(Array<T>& values, std::uint64_t more, std::uint64_t all) const {
+        reserve(values, all);
+        const std::size_t first = values.size();
+        values.resize(first + more);
+        return values.data() + first;
+    }
+
+    /// Behind what the pieces before have given.
+    void read_piece(const pugi::xml_node& piece) {
+        const std::uint64_t points = count_attribute(piece, "NumberOfPoints");
+        const std::uint64_t cells = count_attribute(piece, "NumberOfCells");
+        if (points == 0 && cells == 0) { // as parallel writers leave them, perhaps without arrays
+            return;
+        }
+        first_point_ = soup_.points.size();
+        read_points(piece, points);
+        read_cells(piece, cells);
+        read_data(soup_.point_data, piece, "PointData", points, all_points_);
+        read_data(soup_.cell_data, piece, "CellData", cells, all_cells_);
+        is_first_piece_ = false;
+    }
+
+    void read_points(const pugi::xml_node& piece, std::uint64_t count) {
+        const pugi::xml_node node = piece.child("Points").child("DataArray");
+        const auto start = [&](std::uint64_t values) {
+            if (values % 3 != 0 || values / 3 != count) {
+                fail(node, fmt::format("{} values are no {} points of 3 coordinates", values, count));
+            }
+            checked_index(first_point_ + count, "points");
+            Point<3>* const first = grow(soup_.points, count, all_points_);
+            return count > 0 ? first->data() : nullptr;
+        };
+        values(node, type_of(node), times(3, count), start, [&](double* x, std::uint64_t i, auto value) {
+            x[i] = static_cast<double>(value);
+            if (!std::isfinite(x[i])) {
+                fail(node, fmt::format("point {} has a coordinate that is not a finite number", i / 3));
+            }
+        });
+    }
+
+    static std::string_view type_of(const pugi::xml_node& node) { return node.attribute("type").value(); }
+
+    void read_cells(const pugi::xml_node& piece, std::uint64_t count) {
+        const pugi::xml_node section = piece.child("Cells");
+        const auto array = [&](const char* name) {
+            const pugi::xml_node node = section.find_child_by_attribute("DataArray", "Name", name);
+            if (!node) {
+                fail(piece, fmt::format("the array \"{}\" is missing", name));
+            }
+            if (std::string_view{node.attribute("type").value()}.starts_with("Float")) {
+                fail(node, "integers were expected, not reals");
+            }
+            return node;
+        };
+        check_types(array("types"), count);
+        const std::size_t corners = dimension_ + 1;
+        check_offsets(array("offsets"), count, corners);
+        read_connectivity(array("connectivity"), times(count, corners), corners);
+    }
+
+    /// The first cell of all decides what the mesh is made of.
+    void check_types(const pugi::xml_node& node, std::uint64_t claimed) {
+        const auto start = [&](std::uint64_t types) {
+            if (types != claimed) {
+                fail(node, fmt::format("{} cells are claimed, {} types are there", claimed, types));
+            }
+            checked_index(types, "cells");
+            return nullptr;
+        };
+        values(node, type_of(node), claimed, start, [&](std::nullptr_t, std::uint64_t cell, auto value) {
+            const auto type = static_cast<std::int64_t>(value);
+            if (dimension_ == 0) {
+                dimension_ = dimension_of(type);
+            }
+            if (type != vtk_simplex_type(static_cast<int>(dimension_))) {
+                fail(node,
+                     fmt::format("cell {} is a {}; only lines, only triangles or only tetrahedra are read",
+                                 cell, vtk_type_name(static_cast<int>(type & 0xFF))));
+            }
+        });
+    }
+
+    /// 1 for what is no simplex, too: it is refused with a name then.
+    static std::size_t dimension_of(std::int64_t type) {
+        int dimension = 3;
+        while (dimension > 1 && type != vtk_simplex_type(dimension)) {
+            --dimension;
+        }
+        return static_cast<std::size_t>(dimension);
+    }
+
+    void check_offsets(const pugi::xml_node& node, std::uint64_t cells, std::size_t corners) {
+        const auto start = [&](std::uint64_t offsets) {
+            if (offsets != cells) {
+                fail(node, fmt::format("{} offsets for {} cells", offsets, cells));
+            }
+            return nullptr;
+        };
+        values(node, type_of(node), cells, start, [&](std::nullptr_t, std::uint64_t cell, auto value) {
+            if (static_cast<std::int64_t>(value) != static_cast<std::int64_t>((cell + 1) * corners)) {
+                fail(node, fmt::format("cell {} has not {} vertices", cell, corners));
+            }
+        });
+    }
+
+    void read_connectivity(const pugi::xml_node& node, std::uint64_t count, std::size_t corners) {
+        const std::uint64_t points = soup_.points.size() - first_point_;
+        const auto start = [&](std::uint64_t vertices) {
+            if (vertices != count) {
+                fail(node, fmt::format("{} vertices for {} cells of {}", vertices, count / corners, corners));
+            }
+            return grow(soup_.simplices[dimension_].vertices, count, times(all_cells_, corners));
+        };
+        values(node, type_of(node), count, start, [&](Index* vertices, std::uint64_t i, auto value) {
+            if (value < 0 || static_cast<std::uint64_t>(value) >= points) {
+                fail(node, fmt::format("cell {} names a point that does not exist; there are {}", i / corners,
+                                       points));
+            }
+            vertices[i] = static_cast<Index>(first_point_ + static_cast<std::uint64_t>(value));
+        });
+    }
+
+    // --- data ---
+
+    /// Every piece has the same arrays in the same order.
+    void read_data(std::vector<DataArray>& arrays, const pugi::xml_node& piece, const char* section,
+                   std::uint64_t rows, std::uint64_t all_rows) {
+        std::size_t place = 0;
+        for (const pugi::xml_node node : piece.child(section).children("DataArray")) {
+            DataArray array = empty_array(node);
+            if (is_first_piece_) {
+                arrays.push_back(std::move(array));
+            } else if (place >= arrays.size() || arrays[place].name != array.name ||
+                       arrays[place].components != array.components ||
+                       arrays[place].values.index() != array.values.index()) {
+                fail(node, "the arrays of the pieces differ in name, type, components or order");
+            }
+            append_values(node, arrays[place++], rows, all_rows);
+        }
+        if (place != arrays.size()) {
+            fail(piece, fmt::format("its array \"{}\" in {} is missing", arrays[place].name, section));
+        }
+    }
+
+    /// What an array is, without its values.
+    DataArray empty_array(const pugi::xml_node& node) const {
+        DataArray array;
+        array.name = node.attribute("Name").value();
+        array.components = node.attribute("NumberOfComponents").as_int(1);
+        if (array.components < 1) {
+            fail(node, fmt::format("{} is no number of components", array.components));
+        }
+        if (is_text(node)) {
+            array.values = std::vector<std::string>{};
+        } else if (type_of(node).starts_with("Float")) {
+            array.values = Array<double>{};
+        } else {
+            array.values = Array<std::int64_t>{};
+        }
+        return array;
+    }
+
+    static bool is_text(const pugi::xml_node& node) {
+        return type_of(node) == "String" || node.attribute(text_mark);
+    }
+
+    DataArray field_array(const pugi::xml_node& node) {
+        DataArray array = empty_array(node);
+        const std::uint64_t tuples =
+            node.attribute("NumberOfTuples") ? count_attribute(node, "NumberOfTuples") : any_count;
+        append_values(node, array, std::nullopt, tuples);
+        return array;
+    }
+
+    /// As many rows as given, or any number up to `all_rows`.
+    void append_values(const pugi::xml_node& node, DataArray& array, std::optional<std::uint64_t> rows,
+                       std::uint64_t all_rows) {
+        const auto width = static_cast<std::uint64_t>(array.components);
+        const auto require_rows = [&](std::uint64_t size) {
+            if (size % width != 0 || (rows && size / width != *rows)) {
+                fail(node, fmt::format("{} values are no {} rows of {}", size, rows.value_or(0), width));
+            }
+        };
+        const auto append = [&]<class T>(Array<T>& all) {
+            const auto start = [&](std::uint64_t more) {
+                require_rows(more);
+                return grow(all, more, rows ? times(all_rows, width) : more);
+            };
+            values(node, type_of(node), times(rows.value_or(all_rows), width), start,
+                   [&](T* place, std::uint64_t i, auto value) {
+                       if constexpr (std::integral<T> && std::same_as<decltype(value), std::uint64_t>) {
+                           if (!std::in_range<T>(value)) {
+                               fail(node, fmt::format("{} is too large", value));
+                           }
+                       }
+                       place[i] = static_cast<T>(value);
+                   });
+        };
+        if (auto* strings = std::get_if<std::vector<std::string>>(&array.values)) {
+            std::vector<std::string> more = texts(node, rows ? any_count : all_rows);
+            require_rows(more.size());
+            std::move(more.begin(), more.end(), std::back_inserter(*strings));
+        } else if (auto* reals = std::get_if<Array<double>>(&array.values)) {
+            append(*reals);
+        } else {
+            append(std::get<Array<std::int64_t>>(array.values));
+        }
+    }
+
+    std::vector<std::string> texts(const pugi::xml_node& node, std::uint64_t most) {
+        std::string characters;
+        const auto start = [&](std::uint64_t bytes) {
+            characters.resize(bytes);
+            return characters.data();
+        };
+        const bool of_vtk = type_of(node) == "String";
+        values(node, vtk_name<std::uint8_t>(), of_vtk ? any_count : most, start,
+               [](char* place, std::uint64_t i, auto code) { place[i] = static_cast<char>(code); });
+        std::vector<std::string> result;
+        for (std::size_t begin = 0; begin < characters.size();) {
+            const std::size_t end = std::min(characters.find('\0', begin), characters.size());
+            result.push_back(characters.substr(begin, end - begin));
+            begin = end + 1;
+        }
+        return result;
+    }
+
+    FileBytes& file_;
+    VtuSkeleton skeleton_;
+    pugi::xml_document document_;
+    PayloadFormat format_;
+    std::uint64_t consumed_ = 0;   ///< bytes of the file that made arrays
+    std::size_t dimension_ = 0;    ///< 0 until there was a cell
+    std::size_t first_point_ = 0;  ///< of the piece
+    std::uint64_t all_points_ = 0; ///< that the pieces claim
+    std::uint64_t all_cells_ = 0;
+    bool is_first_piece_ = true;
+    Soup soup_;
+};
+
+} // namespace
+
+Soup read_vtu(const std::filesystem::path& path) {
+    FileBytes file{path};
+    return VtuReader{file}.read(false);
+}
+
+Soup read_vtu_piece(const std::filesystem::path& path) {
+    FileBytes file{path};
+    return VtuReader{file}.read(true);
+}
+
+std::vector<std::string> pvtu_sources(const std::filesystem::path& path) {
+    const Array<char> bytes = read_bytes(path);
+    pugi::xml_document document;
+    const pugi::xml_parse_result result =
+        document.load_buffer(bytes.data(), bytes.size(), pugi::parse_default, pugi::encoding_utf8);
+    const pugi::xml_node grid = document.child("VTKFile").child("PUnstructuredGrid");
+    if (!result || !grid) {
+        throw InputError(fmt::format("{}: byte {}: this is no PVTU file{}{}", path.string(), result.offset,
+                                     result ? "" : ": ", result ? "" : result.description()));
+    }
+    std::vector<std::string> sources;
+    for (const pugi::xml_node piece : grid.children("Piece")) {
+        sources.emplace_back(piece.attribute("Source").value());
+    }
+    return sources;
+}
+
+} // namespace slabhull::io

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/check/hull_view.h"
+
+#include "slab/check/check_shape.h"
+
+#include <cmath>
+
+namespace slabhull {
+
+namespace {
+
+constexpr std::size_t cells_per_piece = 1 << 15;
+
+template<int D>
+struct PieceOfSurvey {
+    std::array<MeasureSums<D>, 3> sums;
+    std::vector<Index> degenerate;
+    std::vector<Index> inverted;
+};
+
+template<std::size_t N>
+double length_of(const std::array<double, N>& x) {
+    double square = 0;
+    for (const double each : x) {
+        square += each * each;
+    }
+    return std::sqrt(square);
+}
+
+/// How far a normal points out of the cap that the cell is in; nothing to a cell of the side.
+template<int D>
+double out_of_cap(Region region, const Point<D + 1>& normal) {
+    return region == Region::intermediate ? 0 : region == Region::initial ? -normal[D] : normal[D];
+}
+
+template<int D>
+void survey_piece(const HullView<D>& view, double sign, std::size_t begin, std::size_t end,
+                  PieceOfSurvey<D>& piece) {
+    const Point<D + 1> origin = view.points().front();
+    for (std::size_t c = begin; c < end; ++c) {
+        const auto corners = corners_of<D, D + 1>(view.cells()[c], view.points());
+        const Point<D + 1> normal = piece.sums[static_cast<std::size_t>(view.region[c])].add(corners, origin);
+        if (is_degenerate<D, D + 1>(corners, length_of(normal)) && !repeats_vertex<D>(view.cells()[c])) {
+            piece.degenerate.push_back(static_cast<Index>(c));
+        }
+        if (sign * out_of_cap<D>(view.region_of(c), normal) < 0) {
+            piece.inverted.push_back(static_cast<Index>(c));
+        }
+    }
+}
+
+} // namespace
+
+template<int D>
+CellSurvey<D> survey_cells(const HullView<D>& view, double sign) {
+    std::vector<PieceOfSurvey<D>> pieces((view.cells().size() + cells_per_piece - 1) / cells_per_piece);
+    parallel_for(view.cells().size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+        survey_piece(view, sign, begin, end, pieces[begin / cells_per_piece]);
+    });
+    CellSurvey<D> survey;
+    std::array<MeasureSums<D>, 3> sums;
+    for (const PieceOfSurvey<D>& piece : pieces) {
+        for (std::size_t r = 0; r < 3; ++r) {
+            sums[r].add(piece.sums[r]);
+        }
+        survey.degenerate.insert(survey.degenerate.end(), piece.degenerate.begin(), piece.degenerate.end());
+        survey.inverted.insert(survey.inverted.end(), piece.inverted.begin(), piece.inverted.end());
+    }
+    for (std::size_t r = 0; r < 3; ++r) {
+        survey.regions[r] = sums[r].value();
+    }
+    return survey;
+}
+
+template CellSurvey<2> survey_cells<2>(const HullView<2>&, double);
+template CellSurvey<3> survey_cells<3>(const HullView<3>&, double);
+
+} // namespace slabhull

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/check/check_shape.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+namespace slabhull {
+
+namespace {
+
+/// A cell whose measure is below this times its longest edge to the power D has no direction that can be
+/// relied on.
+constexpr double degenerate = 1e-14;
+
+template<std::size_t N>
+double square_distance(const std::array<double, N>& a, const std::array<double, N>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < N; ++i) {
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+    }
+    return sum;
+}
+
+template<int D, int N>
+double longest_edge(const std::array<Point<N>, D + 1>& corners) {
+    double square = 0;
+    for (std::size_t i = 0; i <= D; ++i) {
+        for (std::size_t j = i + 1; j <= D; ++j) {
+            square = std::max(square, square_distance(corners[i], corners[j]));
+        }
+    }
+    return std::sqrt(square);
+}
+
+/// Quickly: no edge is longer than twice the longest at the first corner (5 for 4: room for rounding).
+template<int D, int N>
+bool is_far_from_degenerate(double measure, const std::array<Point<N>, D + 1>& corners) {
+    double square = 0;
+    for (std::size_t i = 1; i <= D; ++i) {
+        square = std::max(square, square_distance(corners[0], corners[i]));
+    }
+    double scale = degenerate * degenerate;
+    for (int k = 0; k < D; ++k) {
+        scale *= 5 * square;
+    }
+    return measure * measure > scale;
+}
+
+/// Equal for equal points; 0.0 and -0.0 are equal.
+template<std::size_t N>
+std::uint64_t fingerprint(const std::array<double, N>& point) {
+    std::uint64_t hash = 0;
+    for (const double x : point) {
+        hash = (std::rotl(hash, 25) ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15u;
+    }
+    return hash ^ hash >> 32;
+}
+
+/// Bits that many threads set.
+class SharedBits {
+public:
+    explicit SharedBits(std::size_t count) { words_.assign((count + 63) / 64, 0); }
+    /// Whether it was set before.
+    bool set(std::size_t bit) {
+        return (word(bit).fetch_or(mask(bit), std::memory_order_relaxed) & mask(bit)) != 0;
+    }
+    bool has(std::size_t bit) const { return (words_[bit / 64] & mask(bit)) != 0; }
+    void prefetch(std::size_t bit) const { __builtin_prefetch(&words_[bit / 64], 1); }
+
+private:
+    static std::uint64_t mask(std::size_t bit) { return std::uint64_t{1} << bit % 64; }
+    std::atomic_ref<std::uint64_t> word(std::size_t bit) { return std::atomic_ref{words_[bit / 64]}; }
+
+    Array<std::uint64_t> words_;
+};
+
+/// Points whose fingerprints may be another's, too, ascending: an eighth besides those that are. A table of
+/// bits, eight for each point, says so for a sixth of the time that it takes to sort all fingerprints.
+template<int N>
+std::vector<Index> may_coincide(std::span<const Point<N>> points) {
+    constexpr std::size_t grain = 1 << 16;
+    constexpr std::size_t ahead = 16;
+    const auto bit = [&](std::size_t v) { return (fingerprint(points[v]) >> 32) * points.size() >> 29; };
+    SharedBits met{8 * points.size()};
+    SharedBits met_again{8 * points.size()};
+    parallel_for(points.size(), grain, [&](std::size_t begin, std::size_t end) {
+        std::array<std::uint64_t, ahead> bits;
+        for (std::size_t v = begin; v < end + ahead; ++v) {
+            if (v >= begin + ahead && met.set(bits[v % ahead])) {
+                met_again.set(bits[v % ahead]);
+            }
+            if (v < end) {
+                met.prefetch(bits[v % ahead] = bit(v));
+            }
+        }
+    });
+    return select(points.size(), [&](std::size_t v) { return met_again.has(bit(v)); });
+}
+
+/// Pairs of a vertex and the first one with the same coordinates, ascending.
+template<int N>
+std::vector<std::array<Index, 2>> coincident_pairs(std::span<const Point<N>> points) {
+    Array<std::pair<std::uint64_t, Index>> order; // not of the heap, which would keep its memory
+    for (const Index v : may_coincide<N>(points)) {
+        order.emplace_back(fingerprint(points[v]), v);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::array<Index, 2>> pairs;
+    for (std::size_t first = 0, k = 1; k < order.size(); ++k) {
+        if (order[k].first != order[first].first || points[order[k].second] != points[order[first].second]) {
+            first = k;
+        } else {
+            pairs.push_back({order[first].second, order[k].second});
+        }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+Defect defect_of(ManifoldDefect what) {
+    switch (what) {
+    case ManifoldDefect::repeated_vertex:
+        return Defect::repeated_vertex;
+    case ManifoldDefect::duplicate_cell:
+        return Defect::duplicate_cell;
+    case ManifoldDefect::unused_vertex:
+        return Defect::unused_vertex;
+    case ManifoldDefect::open_facet:
+        return Defect::open_facet;
+    case ManifoldDefect::overfull_facet:
+        return Defect::overfull_facet;
+    case ManifoldDefect::disoriented_facet:
+        return Defect::disoriented_facet;
+    case ManifoldDefect::singular_edge:
+        return Defect::singular_edge;
+    case ManifoldDefect::singular_vertex:
+        return Defect::singular_vertex;
+    }
+    return Defect::singular_vertex;
+}
+
+} // namespace
+
+template<int D>
+bool check_indices(std::span<const Simplex<D>> cells, std::size_t vertex_count, Findings& findings) {
+    if (cells.empty()) {
+        findings.other(Defect::no_cells, {}, "there are no cells");
+        return false;
+    }
+    const auto bad = select(cells.size(), [&](std::size_t c) {
+        return std::any_of(cells[c].begin(), cells[c].end(), [&](Index v) { return v >= vertex_count; });
+    });
+    for (const Index c : bad) {
+        findings.cell(Defect::index_out_of_range, c,
+                      fmt::format("names a vertex that does not exist (there are {})", vertex_count));
+    }
+    return bad.empty();
+}
+
+template<int N>
+bool check_finite(std::span<const Point<N>> points, Findings& findings) {
+    const auto bad = select(points.size(), [&](std::size_t v) {
+        return std::any_of(points[v].begin(), points[v].end(), [](double x) { return !std::isfinite(x); });
+    });
+    for (const Index v : bad) {
+        findings.vertex(Defect::non_finite_coordinate, v, "a coordinate is not a finite number");
+    }
+    return bad.empty();
+}
+
+template<int N>
+void check_coincident(std::span<const Point<N>> points, Findings& findings) {
+    for (const std::array<Index, 2>& pair : coincident_pairs<N>(points)) {
+        const std::vector<Entity> names = findings.vertex_entities(pair);
+        findings.other(Defect::coincident_vertices, names,
+                       fmt::format("vertices {} and {}: same coordinates", names[0].number, names[1].number));
+    }
+}
+
+template<int D, int N>
+bool is_degenerate(const std::array<Point<N>, D + 1>& corners) {
+    return is_degenerate<D, N>(corners, simplex_measure<D, N>(corners));
+}
+
+template<int D, int N>
+bool is_degenerate(const std::array<Point<N>, D + 1>& corners, double measure) {
+    if (is_far_from_degenerate<D, N>(measure, corners)) {
+        return false;
+    }
+    const double edge = longest_edge<D, N>(corners);
+    double scale = degenerate;
+    for (int k = 0; k < D; ++k) {
+        scale *= edge;
+    }
+    return measure <= scale;
+}
+
+template<int D, int N>
+void report_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,
+                       std::span<const Index> degenerate, Findings& findings) {
+    for (const Index c : degenerate) {
+        findings.cell(
+            Defect::degenerate_cell, c,
+            fmt::format("its measure is {:.3g}", simplex_measure<D, N>(corners_of<D, N>(cells[c], points))));
+    }
+}
+
+template<int D, int N>
+void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,
+                      Findings& findings) {
+    const auto bad = select(cells.size(), [&](std::size_t c) {
+        return is_degenerate<D, N>(corners_of<D, N>(cells[c], points)) && !repeats_vertex<D>(cells[c]);
+    });
+    report_degenerate<D, N>(points, cells, bad, findings);
+}
+
+void translate(const ManifoldReport& report, std::initializer_list<ManifoldDefect> except,
+               Findings& findings) {
+    const auto wanted = [&](ManifoldDefect what) {
+        return std::find(except.begin(), except.end(), what) == except.end();
+    };
+    for (const ManifoldFinding& found : report.findings) {
+        if (!wanted(found.what)) {
+            continue;
+        }
+        const Defect what = defect_of(found.what);
+        if (found.what == ManifoldDefect::repeated_vertex || found.what == ManifoldDefect::duplicate_cell) {
+            findings.cells(what, found.cells, found.detail);
+        } else {
+            findings.vertices(what, found.vertices, found.cells, found.detail);
+        }
+    }
+    for (std::size_t kind = 0; kind < manifold_defect_kinds; ++kind) {
+        const auto what = static_cast<ManifoldDefect>(kind);
+        if (wanted(what)) {
+            findings.set_count(defect_of(what), report.count(what));
+        }
+    }
+}
+
+template bool check_indices<2>(std::span<const Simplex<2>>, std::size_t, Findings&);
+template bool check_indices<3>(std::span<const Simplex<3>>, std::size_t, Findings&);
+template bool check_finite<2>(std::span<const Point<2>>, Findings&);
+template bool check_finite<3>(std::span<const Point<3>>, Findings&);
+template bool check_finite<4>(std::span<const Point<4>>, Findings&);
+template void check_coincident<2>(std::span<const Point<2>>, Findings&);
+template void check_coincident<3>(std::span<const Point<3>>, Findings&);
+template void check_coincident<4>(std::span<const Point<4>>, Findings&);
+template bool is_degenerate<2, 2>(const std::array<Point<2>, 3>&);
+template bool is_degenerate<3, 3>(const std::array<Point<3>, 4>&);
+template bool is_degenerate<2, 3>(const std::array<Point<3>, 3>&, double);
+template bool is_degenerate<3, 4>(const std::array<Point<4>, 4>&, double);
+template void report_degenerate<2, 3>(std::span<const Point<3>>, std::span<const Simplex<2>>,
+                                      std::span<const Index>, Findings&);
+template void report_degenerate<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>,
+                                      std::span<const Index>, Findings&);
+template void check_degenerate<2, 2>(std::span<const Point<2>>, std::span<const Simplex<2>>, Findings&);
+template void check_degenerate<3, 3>(std::span<const Point<3>>, std::span<const Simplex<3>>, Findings&);
+
+} // namespace slabhull

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slab/check/findings.h"
+
+#include <span>
+
+namespace slabhull {
+
+// Checks that hulls and spatial meshes share. N is the dimension of the points.
+
+/// False when the cells cannot be looked at any further.
+template<int D>
+bool check_indices(std::span<const Simplex<D>> cells, std::size_t vertex_count, Findings& findings);
+
+/// False when there are coordinates to which geometry does not apply.
+template<int N>
+bool check_finite(std::span<const Point<N>> points, Findings& findings);
+
+template<int N>
+void check_coincident(std::span<const Point<N>> points, Findings& findings);
+
+/// Whether a cell has no measure to speak of: below 1e-14 of its longest edge to the power D.
+template<int D, int N>
+bool is_degenerate(const std::array<Point<N>, D + 1>& corners);
+/// The same for a cell whose measure is known.
+template<int D, int N>
+bool is_degenerate(const std::array<Point<N>, D + 1>& corners, double measure);
+
+template<int D, int N>
+void report_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,
+                       std::span<const Index> degenerate, Findings& findings);
+
+template<int D, int N>
+void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,
+                      Findings& findings);
+
+/// Whether a cell names a vertex twice.
+template<int D>
+bool repeats_vertex(const Simplex<D>& cell) {
+    for (std::size_t i = 0; i <= D; ++i) {
+        for (std::size_t j = i + 1; j <= D; ++j) {
+            if (cell[i] == cell[j]) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Hands the findings of examine_manifold() on, those it did not keep as numbers, but for some kinds.
+void translate(const ManifoldReport& report, std::initializer_list<ManifoldDefect> except,
+               Findings& findings);
+
+} // namespace slabhull

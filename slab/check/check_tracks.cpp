@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/check/hull_view.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <limits>
+#include <tuple>
+
+namespace slabhull {
+
+namespace {
+
+struct TrackPoint {
+    TrackId track;
+    double time;
+    Index vertex;
+    friend auto operator<=>(const TrackPoint&, const TrackPoint&) = default;
+};
+
+/// Calls visit(place, id) for all of a list.
+template<class Visit>
+void each_id(const IdRuns& ids, const Visit& visit) {
+    constexpr std::size_t batch = 1 << 12;
+    std::array<std::int64_t, batch> values;
+    for (std::size_t begin = 0; begin < ids.size(); begin += batch) {
+        const std::size_t end = std::min(ids.size(), begin + batch);
+        ids.copy(begin, end, values.data());
+        for (std::size_t k = begin; k < end; ++k) {
+            visit(k, values[k - begin]);
+        }
+    }
+}
+
+/// First and last track of some parts into which the tracks' range is cut, so that few are listed at once.
+std::vector<std::array<TrackId, 2>> parts_of_range(const IdRuns& tracks) {
+    constexpr TrackId count = 8;
+    TrackId first = std::numeric_limits<TrackId>::max();
+    TrackId last = no_track;
+    each_id(tracks, [&](std::size_t, TrackId track) {
+        first = track >= 0 ? std::min(first, track) : first;
+        last = std::max(last, track);
+    });
+    std::vector<std::array<TrackId, 2>> parts;
+    if (last >= 0) {
+        const TrackId width = (last - first) / count + 1;
+        for (; last - first >= width; first += width) {
+            parts.push_back({first, first + width - 1});
+        }
+        parts.push_back({first, last});
+    }
+    return parts;
+}
+
+template<int D>
+std::vector<TrackPoint> sorted_track_points(const HullView<D>& view, const std::array<TrackId, 2>& part) {
+    const auto wanted = [&](TrackId track) { return part[0] <= track && track <= part[1]; };
+    std::size_t count = 0;
+    each_id(view.track, [&](std::size_t, TrackId track) { count += wanted(track) ? 1 : 0; });
+    std::vector<TrackPoint> on_tracks;
+    on_tracks.reserve(count);
+    each_id(view.track, [&](std::size_t v, TrackId track) {
+        if (wanted(track)) {
+            const auto vertex = static_cast<Index>(v);
+            on_tracks.push_back({track, view.time_of(vertex), vertex});
+        }
+    });
+    std::sort(on_tracks.begin(), on_tracks.end(), [](const TrackPoint& a, const TrackPoint& b) {
+        return std::tie(a.track, a.time, a.vertex) < std::tie(b.track, b.time, b.vertex);
+    });
+    return on_tracks;
+}
+
+std::vector<Entity> track_entities(TrackId track, std::span<const Index> vertices, const Findings& findings) {
+    std::vector<Entity> entities{{"track", track, {}}};
+    for (Entity& vertex : findings.vertex_entities(vertices)) {
+        entities.push_back(std::move(vertex));
+    }
+    return entities;
+}
+
+/// `track` is the points of one, by time.
+bool is_whole(std::span<const TrackPoint> track, const std::array<double, 2>& slab) {
+    const auto same_time = [](const TrackPoint& a, const TrackPoint& b) { return a.time == b.time; };
+    return track.front().time == slab[0] && track.back().time == slab[1] &&
+           std::adjacent_find(track.begin(), track.end(), same_time) == track.end();
+}
+
+/// Calls visit(points) for each track.
+template<class Visit>
+void each_track(const std::vector<TrackPoint>& points, const Visit& visit) {
+    for (auto run = points.begin(); run != points.end();) {
+        const auto end =
+            std::find_if(run, points.end(), [&](const TrackPoint& p) { return p.track != run->track; });
+        visit(std::span<const TrackPoint>{run, end});
+        run = end;
+    }
+}
+
+/// `track` is the points of one, by time.
+void report_track(std::span<const TrackPoint> track, const std::array<double, 2>& slab, Findings& findings) {
+    for (std::size_t k = 1; k < track.size(); ++k) {
+        if (track[k].time == track[k - 1].time) {
+            const std::array<Index, 2> both{track[k - 1].vertex, track[k].vertex};
+            findings.other(Defect::track_repeats_time, track_entities(track[k].track, both, findings),
+                           fmt::format("track {}: two vertices at t = {}", track[k].track, track[k].time));
+        }
+    }
+    if (track.front().time != slab[0] || track.back().time != slab[1]) {
+        const std::array<Index, 2> ends{track.front().vertex, track.back().vertex};
+        findings.other(Defect::track_incomplete, track_entities(track.front().track, ends, findings),
+                       fmt::format("track {}: leads from t = {} to {}, not from {} to {}",
+                                   track.front().track, track.front().time, track.back().time, slab[0],
+                                   slab[1]));
+    }
+}
+
+/// How cap vertices are used.
+enum : std::uint8_t { in_a_cap = 1, on_its_boundary = 2 };
+
+template<int D>
+BoundaryFacet<D> boundary_facet(const HullView<D>& view, Index cell, std::size_t i) {
+    BoundaryFacet<D> facet{{},
+                           false,
+                           outward_facet<D>(view.cells()[cell], static_cast<int>(i)),
+                           cell,
+                           view.adjacency.neighbors[cell][i]};
+    if (view.region_of(cell) == Region::initial) {
+        std::swap(facet.vertices[0], facet.vertices[1]); // an initial cell is negative in space
+    }
+    for (std::size_t k = 0; k < D; ++k) {
+        facet.tracks[k] = view.track[facet.vertices[k]];
+        for (std::size_t j = 0; j < k; ++j) {
+            facet.odd ^= facet.tracks[j] > facet.tracks[k];
+        }
+    }
+    std::sort(facet.tracks.begin(), facet.tracks.end());
+    return facet;
+}
+
+template<int D>
+bool before(const BoundaryFacet<D>& a, const BoundaryFacet<D>& b) {
+    return std::tie(a.tracks, a.vertices) < std::tie(b.tracks, b.vertices);
+}
+
+template<int D>
+void report(Defect what, const BoundaryFacet<D>& facet, const char* detail, Findings& findings) {
+    findings.vertices(what, facet.vertices, {&facet.cap_cell, 1}, detail);
+}
+
+template<int D>
+void check_cap_vertices(const HullView<D>& view, const std::vector<std::uint8_t>& use, Findings& findings) {
+    each_id(view.track, [&](std::size_t v, TrackId track) {
+        const auto vertex = static_cast<Index>(v);
+        if ((use[v] & on_its_boundary) != 0 && track < 0) {
+            findings.vertex(Defect::untracked_boundary, vertex,
+                            "a cap meets the side there, but it has no track");
+        } else if (use[v] == in_a_cap && track >= 0) {
+            findings.vertex(Defect::stray_track, vertex, fmt::format("inside a cap, but on track {}", track));
+        }
+    });
+}
+
+template<int D>
+std::vector<std::uint8_t> mark_cap_vertices(const HullView<D>& view) {
+    std::vector<std::uint8_t> use(view.points().size(), 0);
+    parallel_for(view.cells().size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            for (std::size_t i = 0; view.in_cap(c) && i <= D; ++i) {
+                std::atomic_ref{use[view.cells()[c][i]]}.store(in_a_cap, std::memory_order_relaxed);
+            }
+        }
+    });
+    return use;
+}
+
+/// Cells of caps with neighbours on the side, ascending.
+template<int D>
+std::vector<Index> cap_cells_at_side(const HullView<D>& view) {
+    return select(view.cells().size(), [&](std::size_t c) {
+        const Neighbors<D>& across = view.adjacency.neighbors[c];
+        return view.in_cap(c) &&
+               std::any_of(across.begin(), across.end(), [&](Index n) { return !view.in_cap(n); });
+    });
+}
+
+} // namespace
+
+template<int D>
+void check_tracks(const HullView<D>& view, Findings& findings) {
+    const std::vector<std::array<TrackId, 2>> parts = parts_of_range(view.track);
+    std::vector<std::vector<TrackPoint>> faulty(parts.size());
+    parallel_for(parts.size(), 1, [&](std::size_t part, std::size_t) {
+        each_track(sorted_track_points(view, parts[part]), [&](std::span<const TrackPoint> track) {
+            if (!is_whole(track, view.time)) {
+                faulty[part].insert(faulty[part].end(), track.begin(), track.end());
+            }
+        });
+    });
+    for (const std::vector<TrackPoint>& points : faulty) {
+        each_track(points,
+                   [&](std::span<const TrackPoint> track) { report_track(track, view.time, findings); });
+    }
+}
+
+template<int D>
+BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findings) {
+    BoundaryFacets<D> boundary;
+    std::vector<std::uint8_t> use = mark_cap_vertices(view);
+    for (const Index c : cap_cells_at_side(view)) {
+        for (std::size_t i = 0; i <= D; ++i) {
+            if (view.in_cap(view.adjacency.neighbors[c][i])) {
+                continue;
+            }
+            const BoundaryFacet<D> facet = boundary_facet(view, c, i);
+            for (const Index v : facet.vertices) {
+                use[v] |= on_its_boundary;
+            }
+            boundary[view.region_of(c) == Region::initial ? 0 : 1].push_back(facet);
+        }
+    }
+    for (auto& facets : boundary) {
+        std::sort(facets.begin(), facets.end(), before<D>);
+    }
+    check_cap_vertices(view, use, findings);
+    return boundary;
+}
+
+template<int D>
+void check_boundary_image(const BoundaryFacets<D>& boundary, Findings& findings) {
+    auto first = boundary[0].begin();
+    auto image = boundary[1].begin();
+    while (first != boundary[0].end() || image != boundary[1].end()) {
+        if (image == boundary[1].end() || (first != boundary[0].end() && first->tracks < image->tracks)) {
+            report(Defect::boundary_facet_lost, *first++, "the terminating cap has no facet on its tracks",
+                   findings);
+        } else if (first == boundary[0].end() || image->tracks < first->tracks) {
+            report(Defect::boundary_facet_added, *image++, "the initial cap has no facet on its tracks",
+                   findings);
+        } else {
+            if (first->odd != image->odd) {
+                report(Defect::boundary_facet_reversed, *image,
+                       "lies the other way round than in the initial cap", findings);
+            }
+            ++first;
+            ++image;
+        }
+    }
+}
+
+template void check_tracks<2>(const HullView<2>&, Findings&);
+template void check_tracks<3>(const HullView<3>&, Findings&);
+template BoundaryFacets<2> check_cap_boundaries<2>(const HullView<2>&, Findings&);
+template BoundaryFacets<3> check_cap_boundaries<3>(const HullView<3>&, Findings&);
+template void check_boundary_image<2>(const BoundaryFacets<2>&, Findings&);
+template void check_boundary_image<3>(const BoundaryFacets<3>&, Findings&);
+
+} // namespace slabhull

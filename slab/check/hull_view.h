@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slab/check/findings.h"
+#include "slabhull/geometry/measures.h"
+#include "slabhull/topology/adjacency.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace slabhull {
+
+/// The region of each cell, in two bits.
+class RegionList {
+public:
+    /// All on the side.
+    void reset(std::size_t cells) { packed_.assign((cells + 3) / 4, 0b01010101); }
+    bool empty() const { return packed_.empty(); }
+    Region operator[](std::size_t cell) const {
+        return static_cast<Region>(packed_[cell / 4] >> shift(cell) & 3u);
+    }
+    /// Several threads at once must keep to whole fours of cells.
+    void set(std::size_t cell, Region region) {
+        std::uint8_t& four = packed_[cell / 4];
+        four = static_cast<std::uint8_t>((four & ~(3u << shift(cell))) | static_cast<unsigned>(region)
+                                                                             << shift(cell));
+    }
+
+private:
+    static unsigned shift(std::size_t cell) { return 2 * (cell % 4); }
+
+    Array<std::uint8_t> packed_;
+};
+
+/// A hull under examination: what is claimed, and what was found out about it so far.
+template<int D>
+struct HullView {
+    HullColumns<D> hull;
+    AdjacencyView<D> adjacency;
+    std::array<double, 2> time{};
+    RegionList region; ///< of each cell, as its vertices' times show it
+    IdRuns track;      ///< of each vertex; empty when not given
+
+    std::span<const Point<D + 1>> points() const { return hull.points; }
+    std::span<const Simplex<D>> cells() const { return hull.cells; }
+    double time_of(Index vertex) const { return hull.points[vertex][D]; }
+    Region region_of(std::size_t cell) const { return region[cell]; }
+    bool in_cap(std::size_t cell) const { return region_of(cell) != Region::intermediate; }
+    /// Earliest and latest time of a cell's vertices.
+    std::array<double, 2> span_of(std::size_t cell) const {
+        std::array<double, 2> span{time_of(hull.cells[cell][0]), time_of(hull.cells[cell][0])};
+        for (const Index v : hull.cells[cell]) {
+            span[0] = std::min(span[0], time_of(v));
+            span[1] = std::max(span[1], time_of(v));
+        }
+        return span;
+    }
+};
+
+/// A facet between a cap and the side.
+template<int D>
+struct BoundaryFacet {
+    std::array<TrackId, D> tracks; ///< ascending
+    bool odd;                      ///< parity of the outward orientation against the tracks' order
+    Facet<D> vertices;             ///< outward, as seen in space
+    Index cap_cell;
+    Index side_cell;
+};
+
+/// Those of the initial and of the terminating cap, by tracks.
+template<int D>
+using BoundaryFacets = std::array<std::vector<BoundaryFacet<D>>, 2>;
+
+// --- check_regions.cpp
+// -----------------------------------------------------------------------------------------------
+
+/// Finds the slab's times and the region of each cell, and compares both with the claims.
+/// False when there are no two caps to go on with.
+template<int D>
+bool check_regions(HullView<D>& view, Findings& findings);
+
+/// Reports cap cells that face the other way in time.
+template<int D>
+void report_inverted(const HullView<D>& view, std::span<const Index> inverted, Findings& findings);
+
+/// Both caps must have one Euler characteristic, and a hull of dimension 2 twice that.
+template<int D>
+void check_euler(const HullView<D>& view, const ManifoldCounts& counts, Findings& findings);
+
+// --- check_cells.cpp
+// ------------------------------------------------------------------------------------------------
+
+/// What one look at the corners of each cell shows.
+template<int D>
+struct CellSurvey {
+    std::array<Measures<D>, 3> regions;
+    std::vector<Index> degenerate; ///< is_degenerate(), but for cells that repeat a vertex
+    std::vector<Index> inverted;   ///< cells of caps that do not face out of them
+};
+
+/// Needs: the regions. `sign` is 1, or -1 for a hull that is inside out as a whole.
+template<int D>
+CellSurvey<D> survey_cells(const HullView<D>& view, double sign = 1);
+
+// --- check_tracks.cpp
+// ------------------------------------------------------------------------------------------------
+
+/// Each track has one vertex at a time and leads from the slab's start to its end.
+template<int D>
+void check_tracks(const HullView<D>& view, Findings& findings);
+
+/// The facets between caps and side; their vertices have tracks, other cap vertices do not.
+template<int D>
+BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findings);
+
+/// The terminating cap's boundary is exactly the image of the initial one's under the tracks.
+template<int D>
+void check_boundary_image(const BoundaryFacets<D>& boundary, Findings& findings);
+
+// --- check_patches.cpp
+// -----------------------------------------------------------------------------------------------
+
+/// Patch numbers against regions and the list of patches; counts the side's cells by patch.
+template<int D>
+std::vector<PatchCount> check_patches(const HullView<D>& view, Findings& findings);
+
+/// The side over one boundary facet has one patch.
+template<int D>
+void check_patch_columns(const HullView<D>& view, Findings& findings);
+
+// --- check_claims.cpp
+// ------------------------------------------------------------------------------------------------
+
+/// Takes claims of a wrong shape out of the view.
+template<int D>
+void check_column_lengths(HullColumns<D>& hull, Findings& findings);
+/// Returns the number of layers.
+template<int D>
+std::size_t check_layers(const HullView<D>& view, Findings& findings);
+template<int D>
+void check_vertex_ids(const HullView<D>& view, Findings& findings);
+template<int D>
+void check_neighbors(const HullView<D>& view, Findings& findings);
+template<int D>
+void check_cell_of_vertex(const HullView<D>& view, Findings& findings);
+
+} // namespace slabhull

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/march/cap_reuse.h"
+
+#include "slabhull/geometry/cap_motion.h"
+
+#include <span>
+
+namespace slabhull {
+
+namespace {
+
+/// Numbers of a cap's vertices with the swept ones first; the others keep their order.
+template<int D>
+std::vector<Index> swept_first(const SpatialMesh<D>& cap, const Sweep<D>& sweep) {
+    std::vector<Index> number(cap.points.size(), no_index);
+    for (std::size_t v = 0; v < sweep.cap_vertex.size(); ++v) {
+        number[sweep.cap_vertex[v]] = static_cast<Index>(v);
+    }
+    auto next = static_cast<Index>(sweep.cap_vertex.size());
+    for (Index& n : number) {
+        n = n == no_index ? next++ : n;
+    }
+    return number;
+}
+
+template<int D>
+CapMesh<D> renumbered(const SpatialMesh<D>& cap, std::span<const Point<D>> points,
+                      const std::vector<Index>& number) {
+    CapMesh<D> mesh;
+    mesh.points.resize(points.size());
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        mesh.points[number[v]] = points[v];
+    }
+    mesh.cells = cap.cells;
+    for (Simplex<D>& cell : mesh.cells) {
+        for (Index& v : cell) {
+            v = number[v];
+        }
+    }
+    mesh.neighbors = cap.neighbors;
+    return mesh;
+}
+
+} // namespace
+
+template<int D>
+ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle) {
+    const MovedCap<D> moved =
+        move_cap<D>(initial.points, initial.cells, sweep.cap_vertex, sweep.positions.back());
+    ReusedCap<D> reused;
+    reused.smallest_angle = moved.sound ? moved.smallest_angle : 0;
+    if (reused.smallest_angle >= angle && moved.sound) {
+        reused.mesh = renumbered<D>(initial, moved.points, swept_first(initial, sweep));
+    }
+    return reused;
+}
+
+template ReusedCap<2> reuse_cap<2>(const SpatialMesh<2>&, const Sweep<2>&, double);
+template ReusedCap<3> reuse_cap<3>(const SpatialMesh<3>&, const Sweep<3>&, double);
+
+} // namespace slabhull

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/slab.h"
+
+#include "slab/march/cap_reuse.h"
+#include "slabhull/slab/tangling.h"
+
+#include <utility>
+
+namespace slabhull {
+
+namespace {
+
+/// The terminating cap: moved where that is wanted and good enough, else meshed.
+template<int D>
+CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SlabSettings<D>& settings,
+                    Slab<D>& slab, StageClock& clock) {
+    if (settings.reuse == CapReuse::move) {
+        ReusedCap<D> reused = reuse_cap<D>(initial, sweep, settings.reuse_angle);
+        slab.moved_angle = reused.smallest_angle;
+        slab.cap_moved = reused.good();
+        clock.book("cap moving");
+        if (reused.good()) {
+            return std::move(reused.mesh);
+        }
+    }
+    CapMesh<D> mesh = mesh_cap<D>(sweep.at(sweep.layers()), settings.cap);
+    slab.cap_blocks = mesh.blocks;
+    clock.book("cap meshing");
+    return mesh;
+}
+
+} // namespace
+
+template<int D>
+Slab<D> build_slab(CapToStitch<D> initial, int number, std::vector<double> times,
+                   const SlabSettings<D>& settings, IdCounter ids, StageClock& clock) {
+    Slab<D> slab;
+    Sweep<D> sweep = sweep_boundary<D>(initial.mesh(), settings.motions, settings.motion_start,
+                                       std::move(times), settings.trajectory);
+    clock.book("trajectories");
+    require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
+    clock.book("boundary check");
+    CapMesh<D> mesh = make_cap<D>(initial.mesh(), sweep, settings, slab, clock);
+    IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
+    SpatialMesh<D> terminating = terminating_cap<D>(initial.mesh(), sweep, std::move(mesh), ids);
+    slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
+    slab.terminating_facets = std::move(sweep.surface.facets);
+    slab.hull.slab = number;
+    slab.projected = std::move(sweep.projected);
+    slab.next_ids = ids;
+    clock.book("stitching");
+    return slab;
+}
+
+template Slab<2> build_slab<2>(CapToStitch<2>, int, std::vector<double>, const SlabSettings<2>&, IdCounter,
+                               StageClock&);
+template Slab<3> build_slab<3>(CapToStitch<3>, int, std::vector<double>, const SlabSettings<3>&, IdCounter,
+                               StageClock&);
+
+} // namespace slabhull

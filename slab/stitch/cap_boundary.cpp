@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/stitch/cap_boundary.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/core/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <fmt/format.h>
+#include <span>
+
+namespace slabhull {
+
+namespace {
+
+constexpr std::size_t cells_per_piece = 1 << 15;
+
+/// Turned so that the smallest vertex comes first: the same for every writing of an oriented facet.
+template<int D>
+Facet<D> canonical(Facet<D> facet) {
+    if constexpr (D == 3) {
+        std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
+    }
+    return facet;
+}
+
+/// Finds a boundary facet by its vertices.
+template<int D>
+class FacetTable {
+public:
+    explicit FacetTable(std::span<const Facet<D>> facets) : facets_{facets} {
+        shift_ = 64 - std::bit_width(2 * facets.size() | 2);
+        first_.assign(std::size_t{1} << (64 - shift_), no_index);
+        next_.resize(facets.size());
+        for (Index f = 0; f < facets.size(); ++f) {
+            Index& first = first_[hash(canonical<D>(facets[f]))];
+            next_[f] = first;
+            first = f;
+        }
+    }
+
+    /// no_index when there is none.
+    Index find(const Facet<D>& wanted) const {
+        const Facet<D> key = canonical<D>(wanted);
+        Index f = first_[hash(key)];
+        while (f != no_index && canonical<D>(facets_[f]) != key) {
+            f = next_[f];
+        }
+        return f;
+    }
+
+private:
+    std::size_t hash(const Facet<D>& key) const {
+        std::uint64_t sum = 0;
+        for (const Index v : key) {
+            sum = (sum ^ v) * 0x9E3779B97F4A7C15u;
+            sum ^= sum >> 32;
+        }
+        return static_cast<std::size_t>((sum * 0x9E3779B97F4A7C15u) >> shift_);
+    }
+
+    std::span<const Facet<D>> facets_;
+    int shift_;
+    Array<Index> first_;
+    Array<Index> next_; ///< with the same hash
+};
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw GeometryError("a cap does not fit its boundary: " + what);
+}
+
+template<int D>
+void require_all_found(const SpatialMesh<D>& mesh, const Array<CellFacet>& found, std::size_t open) {
+    for (std::size_t f = 0; f < found.size(); ++f) {
+        if (found[f].cell == no_index) {
+            refuse(fmt::format("no cell has boundary facet {} of vertices {}", f,
+                               fmt::join(mesh.boundary_facets[f], ", ")));
+        }
+    }
+    if (open != found.size()) {
+        refuse(
+            fmt::format("{} facets of cells have no neighbour, and the boundary has {}", open, found.size()));
+    }
+}
+
+} // namespace
+
+template<int D>
+Array<CellFacet> find_boundary_facets(const SpatialMesh<D>& mesh) {
+    const FacetTable<D> table{mesh.boundary_facets};
+    Array<CellFacet> found(mesh.boundary_facets.size(), CellFacet{});
+    std::atomic<std::size_t> open{0};
+    parallel_for(mesh.cells.size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            for (std::size_t i = 0; i <= D; ++i) {
+                if (mesh.neighbors[c][i] != no_index) {
+                    continue;
+                }
+                const Index f = table.find(outward_facet<D>(mesh.cells[c], static_cast<int>(i)));
+                if (f == no_index) {
+                    refuse(
+                        fmt::format("facet {} of cell {} has no neighbour and is not on the boundary", i, c));
+                }
+                found[f] = {static_cast<Index>(c), static_cast<std::uint8_t>(i)};
+                open.fetch_add(1, std::memory_order_relaxed);
+            }
+        }
+    });
+    require_all_found(mesh, found, open);
+    return found;
+}
+
+template Array<CellFacet> find_boundary_facets<2>(const SpatialMesh<2>&);
+template Array<CellFacet> find_boundary_facets<3>(const SpatialMesh<3>&);
+
+} // namespace slabhull

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/tangling.h"
+
+#include "slab/sweep/boundary_mover.h"
+#include "slabhull/geometry/embedding.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace slabhull {
+
+namespace {
+
+/// How closely the time of tangling is bracketed, in durations of the slab.
+constexpr double bracket = 1e-3;
+
+constexpr std::size_t most_crossings = 1000;
+constexpr std::size_t most_partners = 8;
+
+template<int D>
+std::optional<GeometryError> fault_of(const Surface<D>& surface, double time) {
+    try {
+        require_domain_boundary(surface, {fmt::format("moved boundary at t = {:.9g}", time), {}}, false);
+        return std::nullopt;
+    } catch (const GeometryError& error) {
+        return error;
+    }
+}
+
+/// Crossing facets of two patches, told by the first of them and those that it crosses; or the facets of a
+/// patch that have collapsed, as partners of the first.
+template<int D>
+struct PatchFault {
+    Index facet;
+    std::vector<Index> partners;
+    Point<D> near;
+};
+
+/// The patch of lower number, the other one (or the same), and whether it is about collapsed facets.
+using FaultKey = std::tuple<PatchNumber, PatchNumber, bool>;
+
+template<int D>
+std::map<FaultKey, PatchFault<D>> faults_by_patches(const Surface<D>& surface) {
+    std::map<FaultKey, PatchFault<D>> found;
+    for (auto [first, second, near] : find_crossings(surface, most_crossings)) {
+        if (surface.patch[second] < surface.patch[first]) {
+            std::swap(first, second);
+        }
+        const bool collapsed = first == second;
+        const FaultKey key{surface.patch[first], surface.patch[second], collapsed};
+        const auto [fault, fresh] = found.try_emplace(key, PatchFault<D>{first, {}, near});
+        if (collapsed ? !fresh : fault->second.facet == first) {
+            fault->second.partners.push_back(second);
+        }
+    }
+    return found;
+}
+
+std::string in_words(std::vector<Index> facets) {
+    const bool more = facets.size() > most_partners;
+    facets.resize(std::min(facets.size(), most_partners));
+    return fmt::format("{}{}", fmt::join(facets, ", "), more ? " ..." : "");
+}
+
+/// "patch rotor collapses at t = 0.5 near (1, 0, 2), facets 3, 17"
+template<int D>
+std::string collapse_in_words(const std::string& patch, const PatchFault<D>& fault, double time) {
+    std::vector<Index> facets{fault.facet};
+    facets.insert(facets.end(), fault.partners.begin(), fault.partners.end());
+    return fmt::format("patch {} collapses at t = {:.9g} near ({:.6g}), facet{} {}", patch, time,
+                       fmt::join(fault.near, ", "), facets.size() > 1 ? "s" : "", in_words(facets));
+}
+
+/// "patches rotor and casing cross at t = 0.4183 near (1, 0, 2), facets 812 and 90, 14"
+template<int D>
+std::string crossing_in_words(const std::string& first, const std::string& second, const PatchFault<D>& fault,
+                              double time) {
+    const std::string who = first == second ? fmt::format("patch {} crosses itself", first)
+                                            : fmt::format("patches {} and {} cross", first, second);
+    return fmt::format("{} at t = {:.9g} near ({:.6g}), facets {} and {}", who, time,
+                       fmt::join(fault.near, ", "), fault.facet, in_words(fault.partners));
+}
+
+/// A line for each pair of patches; empty when nothing crosses.
+template<int D>
+std::string crossings_in_words(const Surface<D>& surface, double time) {
+    std::vector<std::string> lines;
+    for (const auto& [key, fault] : faults_by_patches(surface)) {
+        const auto [first, second, collapsed] = key;
+        const std::string name = patch_name(surface.patches, first);
+        lines.push_back(collapsed
+                            ? collapse_in_words(name, fault, time)
+                            : crossing_in_words(name, patch_name(surface.patches, second), fault, time));
+    }
+    return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+/// Brackets the time of tangling between a good level and a bad one.
+template<int D>
+class Bisection {
+public:
+    Bisection(const Sweep<D>& sweep, BoundaryMover<D>& mover, std::size_t bad_level, GeometryError fault)
+        : sweep_{sweep}, mover_{mover}, good_places_{sweep.positions[bad_level - 1]},
+          bad_places_{sweep.positions[bad_level]}, good_{sweep.times[bad_level - 1]},
+          bad_{sweep.times[bad_level]}, fault_{std::move(fault)} {}
+
+    [[noreturn]] void run() {
+        const double begin = sweep_.times.front();
+        const double duration = sweep_.times.back() - begin;
+        while (bad_ - good_ > bracket * duration) {
+            halve();
+        }
+        const std::string crossings = crossings_in_words(at(bad_places_), bad_);
+        throw TangledBoundary(
+            fmt::format(
+                "{}\nThe boundary is good until t = {:.9g}, {:.4g} % of the slab from {:.9g} to {:.9g}: "
+                "end the slab there ([time] adapt = true does), or change the motion.",
+                crossings.empty() ? fault_.what() : crossings, good_, 100 * (good_ - begin) / duration, begin,
+                sweep_.times.back()),
+            fault_.entities, good_, bad_);
+    }
+
+private:
+    void halve() {
+        const double middle = 0.5 * (good_ + bad_);
+        Array<Point<D>> places = mover_.move(good_places_, good_, middle);
+        if (auto fault = fault_of<D>(at(places), middle)) {
+            fault_ = std::move(*fault);
+            bad_ = middle;
+            bad_places_ = std::move(places);
+        } else {
+            good_ = middle;
+            good_places_ = std::move(places);
+        }
+    }
+
+    Surface<D> at(const Array<Point<D>>& places) const {
+        Surface<D> surface = sweep_.surface;
+        surface.points = places;
+        return surface;
+    }
+
+    const Sweep<D>& sweep_;
+    BoundaryMover<D>& mover_;
+    Array<Point<D>> good_places_;
+    Array<Point<D>> bad_places_;
+    double good_;
+    double bad_;
+    GeometryError fault_; ///< at bad_
+};
+
+} // namespace
+
+template<int D>
+void require_embedded_levels(const Sweep<D>& sweep, const PatchMotions<D>& motions, double motion_start,
+                             const TrajectoryOptions& options) {
+    for (std::size_t level = 1; level < sweep.times.size(); ++level) {
+        if (auto fault = fault_of<D>(sweep.at(level), sweep.times[level])) {
+            BoundaryMover<D> mover{sweep, motions, motion_start, options};
+            Bisection<D>{sweep, mover, level, std::move(*fault)}.run();
+        }
+    }
+}
+
+template void require_embedded_levels<2>(const Sweep<2>&, const PatchMotions<2>&, double,
+                                         const TrajectoryOptions&);
+template void require_embedded_levels<3>(const Sweep<3>&, const PatchMotions<3>&, double,
+                                         const TrajectoryOptions&);
+
+} // namespace slabhull
