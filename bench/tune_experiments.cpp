@@ -80,8 +80,9 @@ Counts mesh_caps(const Case& the_case) {
     IdCounter ids;
     StageClock clock;
     const auto initial = initial_cap<D>(the_case, ids, {}, clock);
-    const auto settings = settings_of<D>(the_case, boundary_of(initial));
-    const auto sweep = sweep_boundary<D>(initial, settings.motions, 0, {0, 1}, settings.trajectory);
+    const Boundary<D> boundary = boundary_of(initial);
+    const auto settings = settings_of<D>(the_case, boundary);
+    const auto sweep = sweep_boundary<D>(boundary, initial, settings.motions, 0, {0, 1}, settings.trajectory);
     const auto terminating = mesh_cap<D>(sweep.at(1), settings.cap);
     return {static_cast<double>(initial.cells.size() + terminating.cells.size()),
             static_cast<double>(initial.points.size() + terminating.points.size())};

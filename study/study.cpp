@@ -79,13 +79,13 @@ StudyRow study(const Case& the_case, const std::optional<std::filesystem::path>&
     StageClock clock;
     IdCounter ids;
     SpatialMesh<D> initial = initial_cap<D>(the_case, ids, {}, clock);
-    const Surface<D> boundary = boundary_of(initial);
+    const Boundary<D> boundary = boundary_of(initial);
     const auto settings = settings_of<D>(the_case, boundary);
     const std::vector<double> times = the_case.level_times(0);
-    const Slab<D> slab = build_slab<D>(std::move(initial), 0, times, settings, ids, clock);
+    const Slab<D> slab = build_slab<D>(std::move(initial), boundary, 0, times, settings, ids, clock);
     row.layers = times.size() - 1;
-    row.boundary_facets = boundary.facets.size();
-    row.centres = slab.hull.side_points - boundary.points.size() * (row.layers - 1);
+    row.boundary_facets = boundary.facet_count();
+    row.centres = slab.hull.side_points - boundary.vertex_count() * (row.layers - 1);
 
     const HullReport report = check_hull<D>(columns_of(slab.hull));
     clock.book("checking");

@@ -84,8 +84,8 @@ PatchMotions<3> turning(const MotionPointer<3>& motion) {
 double error_of(const Sweep<3>& sweep) {
     const auto map = rotation<3>({0, 0, 1}, {}, rate)->map(sweep.times.front(), sweep.times.back()).value();
     double worst = 0;
-    for (std::size_t v = 0; v < sweep.surface.points.size(); ++v) {
-        const Point<3> exact = map(sweep.surface.points[v]);
+    for (std::size_t v = 0; v < sweep.boundary.vertex_count(); ++v) {
+        const Point<3> exact = map(sweep.boundary.start()[v]);
         for (std::size_t k = 0; k < 3; ++k) {
             worst = std::max(worst, std::abs(exact[k] - sweep.positions.back()[v][k]));
         }
@@ -114,12 +114,12 @@ void trajectories(benchmark::State& state, const MotionPointer<3>& motion, bool 
     for (auto run : state) {
         IdCounter ids = first_ids;
         const double begin = processor_seconds();
-        const Sweep<3> sweep = sweep_boundary<3>(initial, motions, 0, times, {});
+        const Sweep<3> sweep = sweep_boundary<3>(boundary_of(initial), initial, motions, 0, times, {});
         const double swept = processor_seconds();
         require_embedded_levels<3>(sweep, motions, 0, {});
         const double embedded = processor_seconds();
-        const SpatialMesh<3> terminating = terminating_cap<3>(
-            initial, sweep, {sweep.positions.back(), initial.cells, initial.neighbors}, ids);
+        const SpatialMesh<3> terminating =
+            terminating_cap<3>(sweep, {sweep.positions.back(), initial.cells, initial.neighbors}, ids);
         const Hull<3> hull = stitch<3>(initial, sweep, terminating, {Split::C}, ids);
         const bool clean = check_hull<3>(columns_of(hull)).clean();
         const double end = processor_seconds();

@@ -27,7 +27,7 @@ Hull<3> hull_of(double tets) {
     StageClock clock;
     const SpatialMesh<3> cap = initial_cap<3>(the_case, ids, {}, clock);
     const auto settings = settings_of<3>(the_case, boundary_of(cap));
-    return build_slab<3>(cap, 0, the_case.level_times(0), settings, ids, clock).hull;
+    return build_slab<3>(cap, boundary_of(cap), 0, the_case.level_times(0), settings, ids, clock).hull;
 }
 
 bool check_is_awake(Hull<3>& hull) {

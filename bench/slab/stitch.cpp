@@ -96,9 +96,8 @@ struct Parts {
     Parts(Index n, std::size_t layers) : initial{grid_cap(n, ids)} {
         std::vector<double> times(layers + 1);
         std::iota(times.begin(), times.end(), 0.0);
-        sweep = sweep_boundary<3>(initial, {}, 0, times, {});
-        terminating =
-            terminating_cap<3>(initial, sweep, {initial.points, initial.cells, initial.neighbors}, ids);
+        sweep = sweep_boundary<3>(boundary_of(initial), initial, {}, 0, times, {});
+        terminating = terminating_cap<3>(sweep, {initial.points, initial.cells, initial.neighbors}, ids);
     }
     Hull<3> stitched(const SideOptions& side) { return stitch<3>(initial, sweep, terminating, side, ids); }
 

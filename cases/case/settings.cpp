@@ -30,7 +30,7 @@ PatchNumber number_of(const PatchList& patches, const std::string& name, const c
 template<int D>
 class SettingsMaker {
 public:
-    SettingsMaker(const Case& the_case, const Surface<D>& start) : case_{the_case}, start_{start} {}
+    SettingsMaker(const Case& the_case, const Boundary<D>& boundary) : case_{the_case}, boundary_{boundary} {}
 
     CaseSettings<D> run() {
         settings_.motion_start = case_.start;
@@ -40,7 +40,7 @@ public:
         settings_.reuse = case_.cap_reuse;
         settings_.reuse_angle = case_.cap_reuse_angle;
         for (const auto& [patch, spec] : case_.motions) {
-            const PatchNumber number = number_of(start_.patches, patch, "motion");
+            const PatchNumber number = number_of(boundary_.patches(), patch, "motion");
             try {
                 add_motion(number, spec);
             } catch (const UsageError& error) {
@@ -62,10 +62,10 @@ private:
         } else if (spec.kind == MotionSpec::Kind::stretch) {
             stretching_.insert(number);
         } else {
-            std::vector<TrackId> tracks(start_.points.size());
+            std::vector<TrackId> tracks(boundary_.vertex_count());
             std::iota(tracks.begin(), tracks.end(), 0);
-            DisplacementFiles<D> files = read_displacement_files<D>(spec.displacements, start_, tracks,
-                                                                    number, {case_.start, case_.end});
+            DisplacementFiles<D> files = read_displacement_files<D>(
+                spec.displacements, boundary_.start_surface(), tracks, number, {case_.start, case_.end});
             moving.nodal = std::move(files.motion);
             matches_[number] = std::move(files.match);
         }
@@ -75,14 +75,14 @@ private:
         if (stretching_.empty()) {
             return;
         }
-        const StretchPointer<D> stretch = harmonic_stretch(start_, stretching_);
+        const StretchPointer<D> stretch = harmonic_stretch(boundary_, stretching_);
         for (const PatchNumber number : stretching_) {
             settings_.motions[number].stretch = stretch;
         }
     }
 
     void add_projection(const std::string& patch, const ProjectionSpec& spec) {
-        MovingPatch<D>& moving = settings_.motions[number_of(start_.patches, patch, "project")];
+        MovingPatch<D>& moving = settings_.motions[number_of(boundary_.patches(), patch, "project")];
         if (moving.motion == nullptr && moving.stretch == nullptr) {
             moving.motion = standing<D>();
         }
@@ -96,7 +96,7 @@ private:
     }
 
     const Case& case_;
-    const Surface<D>& start_;
+    const Boundary<D>& boundary_;
     SlabSettings<D> settings_;
     std::map<PatchNumber, DisplacementMatch> matches_;
     std::set<PatchNumber> stretching_;
@@ -115,11 +115,11 @@ CapOptions cap_options(const Case& the_case) {
 }
 
 template<int D>
-CaseSettings<D> case_settings(const Case& the_case, const Surface<D>& start) {
-    return SettingsMaker<D>{the_case, start}.run();
+CaseSettings<D> case_settings(const Case& the_case, const Boundary<D>& boundary) {
+    return SettingsMaker<D>{the_case, boundary}.run();
 }
 
-template CaseSettings<2> case_settings<2>(const Case&, const Surface<2>&);
-template CaseSettings<3> case_settings<3>(const Case&, const Surface<3>&);
+template CaseSettings<2> case_settings<2>(const Case&, const Boundary<2>&);
+template CaseSettings<3> case_settings<3>(const Case&, const Boundary<3>&);
 
 } // namespace slabhull

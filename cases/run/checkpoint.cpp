@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <type_traits>
 
@@ -136,15 +137,25 @@ PatchList unpack_patches(Unpacker& in) {
     return patches;
 }
 
+/// The boundary that the march's caps have, at its start; their vertices begin with its.
 template<int D>
-bool fits(const MarchState<D>& state) {
+std::optional<Boundary<D>> boundary_of_caps(const SpatialMesh<D>& cap, Array<Point<D>> start) {
     const auto known = [&](const Facet<D>& facet) {
-        return std::all_of(facet.begin(), facet.end(),
-                           [&](Index v) { return v < state.start_places.size(); });
+        return std::all_of(facet.begin(), facet.end(), [&](Index v) { return v < start.size(); });
     };
-    return state.cap.boundary_patch.size() == state.cap.boundary_facets.size() &&
-           state.start_places.size() <= state.cap.points.size() &&
-           std::all_of(state.cap.boundary_facets.begin(), state.cap.boundary_facets.end(), known);
+    if (cap.boundary_patch.size() != cap.boundary_facets.size() || start.size() > cap.points.size() ||
+        !std::all_of(cap.boundary_facets.begin(), cap.boundary_facets.end(), known)) {
+        return std::nullopt;
+    }
+    Array<TrackId> tracks(cap.track_ids.begin(),
+                          cap.track_ids.begin() + static_cast<std::ptrdiff_t>(start.size()));
+    try {
+        return Boundary<D>{{std::move(start), cap.boundary_facets, cap.boundary_patch, cap.patches},
+                           std::move(tracks)}
+            .bounding(cap.vertex_ids);
+    } catch (const GeometryError&) {
+        return std::nullopt;
+    }
 }
 
 } // namespace
@@ -165,7 +176,7 @@ void write_checkpoint(const std::filesystem::path& path, const MarchState<D>& st
     pack_patches(out, state.cap.patches);
     out.list(state.cap.boundary_facets);
     out.list(state.cap.boundary_patch);
-    out.list(state.start_places);
+    out.list(state.boundary.start());
     io::AtomicFile file{path};
     file.write(std::move(out).sealed());
     file.commit();
@@ -195,10 +206,11 @@ Checkpoint<D> read_checkpoint(const std::filesystem::path& path) {
     read.state.cap.patches = unpack_patches(in);
     read.state.cap.boundary_facets = in.list<Array<Facet<D>>>();
     read.state.cap.boundary_patch = in.list<std::vector<PatchNumber>>();
-    read.state.start_places = in.list<Array<Point<D>>>();
-    if (!fits(read.state)) {
+    auto boundary = boundary_of_caps<D>(read.state.cap, in.list<Array<Point<D>>>());
+    if (!boundary) {
         in.fail("does not fit its cap");
     }
+    read.state.boundary = *std::move(boundary);
     return read;
 }
 

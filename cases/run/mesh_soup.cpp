@@ -80,7 +80,7 @@ public:
         connect();
         find_patches(used.number);
         Array<Index> vertices;
-        require_domain_boundary(boundary_of(mesh_), facet_naming(), true);
+        require_domain_boundary(boundary_surface(mesh_, vertices), facet_naming(), true);
         return std::move(mesh_);
     }
 

@@ -171,7 +171,7 @@ private:
     }
 
     void start(MarchState<D>&& state) {
-        CaseSettings<D> settings = case_settings<D>(case_, state.start_boundary());
+        CaseSettings<D> settings = case_settings<D>(case_, state.boundary);
         patches_ = state.cap.patches;
         matches_ = std::move(settings.matches);
         march_.emplace(std::move(state), std::move(settings.slab));

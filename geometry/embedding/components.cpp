@@ -31,42 +31,17 @@ double cone(const Point<D>& apex, const FacetCorners<D>& corners) {
     return outward_sign<D>(0) * signed_measure<D>(simplex);
 }
 
-/// Gives all facets connected to `seed` the number `component`.
-template<int D>
-void flood(const Adjacency<D - 1>& adjacency, Index seed, Index component, std::vector<Index>& of_facet) {
-    std::vector<Index> open{seed};
-    of_facet[seed] = component;
-    while (!open.empty()) {
-        const Index facet = open.back();
-        open.pop_back();
-        for (const Index next : adjacency.neighbors[facet]) {
-            if (of_facet[next] == no_index) {
-                of_facet[next] = component;
-                open.push_back(next);
-            }
-        }
-    }
-}
-
 } // namespace
 
 template<int D>
-Components find_components(const Surface<D>& surface, const Adjacency<D - 1>& adjacency) {
-    Components parts;
-    parts.of_facet.assign(surface.facets.size(), no_index);
+std::vector<double> enclosed_by_components(const Boundary<D>& boundary, const Surface<D>& surface) {
+    std::vector<double> enclosed(boundary.component_count(), 0);
     for (Index facet = 0; facet < surface.facets.size(); ++facet) {
-        if (parts.of_facet[facet] == no_index) {
-            flood<D>(adjacency, facet, static_cast<Index>(parts.count()), parts.of_facet);
-            parts.first_facet.push_back(facet);
-        }
+        const Index part = boundary.component(facet);
+        const Point<D>& apex = surface.points[surface.facets[boundary.first_facet(part)][0]];
+        enclosed[part] += cone<D>(apex, corners_of_facet(surface, facet));
     }
-    parts.enclosed.assign(parts.count(), 0);
-    for (Index facet = 0; facet < surface.facets.size(); ++facet) {
-        const Index part = parts.of_facet[facet];
-        const Point<D>& apex = surface.points[surface.facets[parts.first_facet[part]][0]];
-        parts.enclosed[part] += cone<D>(apex, corners_of_facet(surface, facet));
-    }
-    return parts;
+    return enclosed;
 }
 
 int detail::line_passes(const FacetCorners<2>& facet, const Point<2>& p) {
@@ -80,7 +55,7 @@ int detail::line_passes(const FacetCorners<3>& facet, const Point<3>& p) {
     return side_of(facet[1], facet[2], p) == side && side_of(facet[2], facet[0], p) == side ? side : 0;
 }
 
-template Components find_components<2>(const Surface<2>&, const Adjacency<1>&);
-template Components find_components<3>(const Surface<3>&, const Adjacency<2>&);
+template std::vector<double> enclosed_by_components<2>(const Boundary<2>&, const Surface<2>&);
+template std::vector<double> enclosed_by_components<3>(const Boundary<3>&, const Surface<3>&);
 
 } // namespace slabhull

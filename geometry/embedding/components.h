@@ -5,8 +5,7 @@
 #include "geometry/embedding/box_tree.h"
 #include "geometry/embedding/facet_pair.h"
 
-#include "slabhull/topology/adjacency.h"
-#include "slabhull/topology/spatial_mesh.h"
+#include "slabhull/topology/boundary.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -15,18 +14,10 @@
 
 namespace slabhull {
 
-/// Connected pieces of a closed surface, numbered by their first facet.
-struct Components {
-    std::vector<Index> of_facet;
-    std::vector<Index> first_facet; ///< of each component
-    std::vector<double> enclosed; ///< signed measure: positive for an outer boundary, negative around a body
-
-    std::size_t count() const { return first_facet.size(); }
-};
-
-/// Needs: an adjacency without defects.
+/// Signed measure that each component of a boundary encloses when it lies as in `surface`: positive for an
+/// outer boundary, negative around a body.
 template<int D>
-Components find_components(const Surface<D>& surface, const Adjacency<D - 1>& adjacency);
+std::vector<double> enclosed_by_components(const Boundary<D>& boundary, const Surface<D>& surface);
 
 namespace detail {
 
@@ -61,7 +52,7 @@ int winding_number(const Surface<D>& surface, const BoxTree<D>& tree, const Poin
     return winding;
 }
 
-extern template Components find_components<2>(const Surface<2>&, const Adjacency<1>&);
-extern template Components find_components<3>(const Surface<3>&, const Adjacency<2>&);
+extern template std::vector<double> enclosed_by_components<2>(const Boundary<2>&, const Surface<2>&);
+extern template std::vector<double> enclosed_by_components<3>(const Boundary<3>&, const Surface<3>&);
 
 } // namespace slabhull

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace slabhull {
 
@@ -38,7 +39,15 @@ public:
             require_fans(adjacency);
         }
         require_no_crossings();
-        require_nesting(find_components(surface_, adjacency));
+        require_nesting(Boundary<D>{surface_});
+    }
+
+    /// The conditions on places alone.
+    void run_places(const Boundary<D>& boundary) {
+        require_finite_points();
+        require_extent();
+        require_no_crossings();
+        require_nesting(boundary);
     }
 
 private:
@@ -60,10 +69,10 @@ private:
     void require_closed(const Adjacency<D - 1>& adjacency) const;
     void require_fans(const Adjacency<D - 1>& adjacency) const;
     void require_no_crossings() const;
-    void require_nesting(const Components& parts) const;
+    void require_nesting(const Boundary<D>& boundary) const;
 
     std::string ridge_in_words(const FacetDefect<D - 1>& defect) const;
-    void judge_component(const Components& parts, Index part, int winding) const;
+    void judge_component(Index facet, bool outer, bool any_outer, int winding) const;
 
     const Surface<D>& surface_;
     FacetNames<D> names_;
@@ -220,31 +229,34 @@ void BoundaryInspection<D>::require_no_crossings() const {
 /// The domain must lie on the inner side of each component: seen from it, the others wind around the place
 /// once when it bounds a body, and not at all when it is an outer boundary.
 template<int D>
-void BoundaryInspection<D>::require_nesting(const Components& parts) const {
-    if (parts.count() == 1) {
-        judge_component(parts, 0, 0);
-        return;
-    }
-    const BoxTree<D> tree{facet_boxes(surface_)};
-    for (Index part = 0; part < parts.count(); ++part) {
-        const Point<D>& place = surface_.points[surface_.facets[parts.first_facet[part]][0]];
-        const auto of_others = [&](Index facet) { return parts.of_facet[facet] != part; };
-        judge_component(parts, part, winding_number<D>(surface_, tree, place, of_others));
+void BoundaryInspection<D>::require_nesting(const Boundary<D>& boundary) const {
+    const std::vector<double> enclosed = enclosed_by_components(boundary, surface_);
+    const bool any_outer = std::any_of(enclosed.begin(), enclosed.end(), [](double e) { return e > 0; });
+    std::optional<BoxTree<D>> tree; // not needed for one component
+    for (Index part = 0; part < enclosed.size(); ++part) {
+        const Index facet = boundary.first_facet(part);
+        int winding = 0;
+        if (enclosed.size() > 1) {
+            if (!tree) {
+                tree.emplace(facet_boxes(surface_));
+            }
+            const Point<D>& place = surface_.points[surface_.facets[facet][0]];
+            winding = winding_number<D>(surface_, *tree, place,
+                                        [&](Index other) { return boundary.component(other) != part; });
+        }
+        judge_component(facet, enclosed[part] > 0, any_outer, winding);
     }
 }
 
+/// `facet` is the first of the component, `winding` how often the other components wind around it.
 template<int D>
-void BoundaryInspection<D>::judge_component(const Components& parts, Index part, int winding) const {
-    const bool outer = parts.enclosed[part] > 0;
+void BoundaryInspection<D>::judge_component(Index facet, bool outer, bool any_outer, int winding) const {
     if (winding == (outer ? 0 : 1)) {
         return;
     }
-    const Index facet = parts.first_facet[part];
     const std::string which =
         fmt::format("the closed part of the boundary with {} at {}", names_.facet(facet),
                     place_in_words(surface_.points[surface_.facets[facet][0]]));
-    const bool any_outer =
-        std::any_of(parts.enclosed.begin(), parts.enclosed.end(), [](double e) { return e > 0; });
     std::string fault;
     if (outer) {
         fault =
@@ -271,6 +283,14 @@ void require_domain_boundary(const Surface<D>& surface, const FacetNaming& namin
     BoundaryInspection<D>{surface, naming, is_input}.run();
 }
 
+template<int D>
+void require_domain_boundary(const Boundary<D>& boundary, const Surface<D>& surface,
+                             const FacetNaming& naming) {
+    BoundaryInspection<D>{surface, naming, false}.run_places(boundary);
+}
+
+template void require_domain_boundary<2>(const Boundary<2>&, const Surface<2>&, const FacetNaming&);
+template void require_domain_boundary<3>(const Boundary<3>&, const Surface<3>&, const FacetNaming&);
 template void require_domain_boundary<2>(const Surface<2>&, const FacetNaming&, bool);
 template void require_domain_boundary<3>(const Surface<3>&, const FacetNaming&, bool);
 

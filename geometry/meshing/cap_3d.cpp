@@ -46,9 +46,16 @@ CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options) {
     require_sane(options);
     require_fits(surface);
     require_domain_boundary(surface, {}, false); // meshers crash, or never end, on anything else
+    return mesh_cap<3>(Boundary<3>{surface}, surface, options);
+}
+
+template<>
+CapMesh<3> mesh_cap<3>(const Boundary<3>& boundary, const Surface<3>& surface, const CapOptions& options) {
+    require_sane(options);
+    require_fits(surface);
     const SizeField<3> size{surface.points, boundary_spacing<3>(surface.points, surface.facets),
                             options.grading};
-    CapMesh<3> mesh = mesh_in_blocks(surface, size, options);
+    CapMesh<3> mesh = mesh_in_blocks(boundary, surface, size, options);
     if (options.curve_order) {
         order_along_curve<3>(mesh, surface.points.size());
     }

@@ -31,9 +31,10 @@ constexpr double own_bytes = 100;
 /// Part of the memory that is free which the meshing may use.
 constexpr double usable_memory = 0.85;
 
-CapMesh<3> fill(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options) {
-    return options.mesher == SolidMesher::hxt ? fill_with_hxt(surface, size, options)
-                                              : fill_with_tetgen(surface, size, options);
+CapMesh<3> fill(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                const CapOptions& options) {
+    return options.mesher == SolidMesher::hxt ? fill_with_hxt(boundary, surface, size, options)
+                                              : fill_with_tetgen(boundary, surface, size, options);
 }
 
 /// What meshing needs with so many blocks, so many of them at once.
@@ -132,7 +133,7 @@ CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, c
         parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k) {
                 surfaces[k] = surface_of_block(blocks.points, blocks.facets[first + k]);
-                parts[k] = fill(surfaces[k].surface, size, options);
+                parts[k] = fill(Boundary<3>{surfaces[k].surface}, surfaces[k].surface, size, options);
             }
         });
         for (std::size_t k = 0; k < count; ++k) {
@@ -159,22 +160,24 @@ int blocks_that_fit(SolidMesher mesher, double cells, double bytes) {
     return blocks;
 }
 
-CapMesh<3> mesh_in_blocks(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options) {
+CapMesh<3> mesh_in_blocks(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                          const CapOptions& options) {
     if (options.blocks == 1) {
-        return fill(surface, size, options);
+        return fill(boundary, surface, size, options);
     }
     const double memory = usable_memory * static_cast<double>(available_memory());
     if (options.blocks == 0 &&
         bytes_for(options.mesher, cells_per_cube * size.cube_count(), 1, 1) <= memory) {
-        return fill(surface, size, options); // even if the domain were the box around it
+        return fill(boundary, surface, size, options); // even if the domain were the box around it
     }
     std::vector<LoadSample> load = sample_load(surface, size);
     const double cells = cells_per_cube * cubes_in(load);
     const int count = options.blocks > 0 ? options.blocks : blocks_that_fit(options.mesher, cells, memory);
     if (count == 1) {
-        return fill(surface, size, options);
+        return fill(boundary, surface, size, options);
     }
-    const DomainBlocks blocks = cut_domain(surface, size, options.grading.growth, std::move(load), count);
+    const DomainBlocks blocks =
+        cut_domain(boundary, surface, size, options.grading.growth, std::move(load), count);
     int at_once = std::min(thread_count(), count);
     while (at_once > 1 && bytes_for(options.mesher, cells, count, at_once) > memory) {
         --at_once;

@@ -43,4 +43,9 @@ CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
     return mesh;
 }
 
+template<>
+CapMesh<2> mesh_cap<2>(const Boundary<2>&, const Surface<2>& surface, const CapOptions& options) {
+    return mesh_cap<2>(surface, options);
+}
+
 } // namespace slabhull

@@ -6,8 +6,6 @@
 
 #include "geometry/embedding/components.h"
 
-#include "slabhull/topology/adjacency.h"
-
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <gmshc.h>
@@ -99,27 +97,27 @@ void set_options(const Gmsh& gmsh, const SizeField<3>& size) {
 /// The components that bound each connected part of the domain, the outer one first.
 using Solids = std::vector<std::vector<Index>>;
 
-Solids find_solids(const Surface<3>& surface, const Components& parts) {
+Solids find_solids(const Boundary<3>& boundary, const Surface<3>& surface) {
+    const std::vector<double> enclosed = enclosed_by_components(boundary, surface);
     Solids solids;
     std::vector<Index> outer; // by size, ascending: the first one around a body is its own
-    for (Index part = 0; part < parts.count(); ++part) {
-        if (parts.enclosed[part] > 0) {
+    for (Index part = 0; part < enclosed.size(); ++part) {
+        if (enclosed[part] > 0) {
             outer.push_back(part);
         }
     }
-    std::stable_sort(outer.begin(), outer.end(),
-                     [&](Index a, Index b) { return parts.enclosed[a] < parts.enclosed[b]; });
+    std::stable_sort(outer.begin(), outer.end(), [&](Index a, Index b) { return enclosed[a] < enclosed[b]; });
     for (const Index part : outer) {
         solids.push_back({part});
     }
     const BoxTree<3> tree{facet_boxes(surface)};
-    for (Index part = 0; part < parts.count(); ++part) {
-        const Point<3>& place = surface.points[surface.facets[parts.first_facet[part]][0]];
+    for (Index part = 0; part < enclosed.size(); ++part) {
+        const Point<3>& place = surface.points[surface.facets[boundary.first_facet(part)][0]];
         const auto is_in = [&](const std::vector<Index>& solid) {
             return winding_number<3>(surface, tree, place,
-                                     [&](Index f) { return parts.of_facet[f] == solid[0]; }) > 0;
+                                     [&](Index f) { return boundary.component(f) == solid[0]; }) > 0;
         };
-        if (!(parts.enclosed[part] > 0)) {
+        if (!(enclosed[part] > 0)) {
             std::find_if(solids.begin(), solids.end(), is_in)->push_back(part);
         }
     }
@@ -130,12 +128,12 @@ Solids find_solids(const Surface<3>& surface, const Components& parts) {
 /// added for the one with the largest tag, and would give tags twice.)
 class GmshDomain {
 public:
-    GmshDomain(const Gmsh& gmsh, const Surface<3>& surface, const Components& parts, const Solids& solids)
+    GmshDomain(const Gmsh& gmsh, const Boundary<3>& boundary, const Surface<3>& surface, const Solids& solids)
         : gmsh_{gmsh}, surface_{surface}, tag_(surface.points.size(), 0) {
         gmsh.call<decltype(gmshModelAdd)>("gmshModelAdd", "cap");
-        std::vector<std::vector<Index>> facets(parts.count());
+        std::vector<std::vector<Index>> facets(boundary.component_count());
         for (Index f = 0; f < surface.facets.size(); ++f) {
-            facets[parts.of_facet[f]].push_back(f);
+            facets[boundary.component(f)].push_back(f);
         }
         std::vector<int> loops;
         for (std::size_t part = 0; part < facets.size(); ++part) {
@@ -237,7 +235,7 @@ void send_failure(const Send& send, std::int32_t status, const std::string& said
     send(&heading, sizeof heading);
 }
 
-void mesh_and_send(const Surface<3>& surface, const Components& parts, const Solids& solids,
+void mesh_and_send(const Boundary<3>& boundary, const Surface<3>& surface, const Solids& solids,
                    const SizeField<3>& size, const Send& send) {
     // In a world of its own: Gmsh has parts of TetGen inside, and would call those of ours, and crash.
     void* library = dlmopen(LM_ID_NEWLM, SLABHULL_GMSH_SONAME, RTLD_NOW | RTLD_LOCAL);
@@ -250,7 +248,7 @@ void mesh_and_send(const Surface<3>& surface, const Components& parts, const Sol
         char* arguments = program.data();
         gmsh.call<decltype(gmshInitialize)>("gmshInitialize", 1, &arguments, 0);
         set_options(gmsh, size);
-        const GmshDomain domain{gmsh, surface, parts, solids};
+        const GmshDomain domain{gmsh, boundary, surface, solids};
         gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 3);
         const CapMesh<3> mesh = domain.result();
         const MesherHeading heading{0,
@@ -277,12 +275,11 @@ bool has_hxt() {
     return true;
 }
 
-CapMesh<3> fill_with_hxt(const Surface<3>& surface, const SizeField<3>& size, const CapOptions&) {
-    const Components parts =
-        find_components(surface, build_adjacency<2>(surface.facets, surface.points.size()));
-    const Solids solids = find_solids(surface, parts);
+CapMesh<3> fill_with_hxt(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                         const CapOptions&) {
+    const Solids solids = find_solids(boundary, surface);
     return fill_in_child(
-        surface, [&](const Send& send) { mesh_and_send(surface, parts, solids, size, send); },
+        surface, [&](const Send& send) { mesh_and_send(boundary, surface, solids, size, send); },
         failure_in_words);
 }
 

@@ -144,8 +144,9 @@ bool has_tetgen() {
     return true;
 }
 
-CapMesh<3> fill_with_tetgen(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options) {
-    const std::vector<Point<3>> holes = hole_seeds(surface);
+CapMesh<3> fill_with_tetgen(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                            const CapOptions& options) {
+    const std::vector<Point<3>> holes = hole_seeds(boundary, surface);
     return fill_in_child(
         surface, [&](const Send& send) { mesh_and_send(surface, holes, size, options, send); },
         thrown_in_words);

@@ -9,7 +9,7 @@ bool has_hxt() {
     return false;
 }
 
-CapMesh<3> fill_with_hxt(const Surface<3>&, const SizeField<3>&, const CapOptions&) {
+CapMesh<3> fill_with_hxt(const Boundary<3>&, const Surface<3>&, const SizeField<3>&, const CapOptions&) {
     throw UsageError{"this build has no Gmsh: configure it with -DSLABHULL_GMSH=ON to mesh 3D caps with HXT"};
 }
 

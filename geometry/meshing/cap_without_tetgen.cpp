@@ -9,7 +9,7 @@ bool has_tetgen() {
     return false;
 }
 
-CapMesh<3> fill_with_tetgen(const Surface<3>&, const SizeField<3>&, const CapOptions&) {
+CapMesh<3> fill_with_tetgen(const Boundary<3>&, const Surface<3>&, const SizeField<3>&, const CapOptions&) {
     throw UsageError{
         "this build has no TetGen: configure it with -DSLABHULL_TETGEN=ON to mesh 3D caps with it"};
 }

@@ -9,7 +9,6 @@
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/geometry/embedding.h"
-#include "slabhull/topology/adjacency.h"
 
 #include <algorithm>
 #include <array>
@@ -61,9 +60,11 @@ std::vector<Point<3>> directions() {
 /// One block and the planes that might cut it.
 class BlockCutter {
 public:
-    BlockCutter(const Array<Point<3>>& points, const Block& block, const SizeField<3>& size, double growth)
+    /// `boundary` is that of the block, where it is known already.
+    BlockCutter(const Array<Point<3>>& points, const Block& block, const SizeField<3>& size, double growth,
+                const Boundary<3>* boundary)
         : block_{block}, size_{size}, growth_{growth}, part_{surface_of_block(points, block.facets)},
-          adjacency_{build_adjacency<2>(part_.surface.facets, part_.surface.points.size())} {
+          boundary_{boundary != nullptr ? *boundary : Boundary<3>{part_.surface}} {
         for (const Point<3>& p : part_.surface.points) {
             spacing_.push_back(size_(p));
         }
@@ -100,7 +101,7 @@ private:
     const SizeField<3>& size_;
     double growth_;
     BlockSurface part_;
-    Adjacency<2> adjacency_;
+    Boundary<3> boundary_;
     std::vector<double> spacing_; ///< of each vertex
 };
 
@@ -207,8 +208,8 @@ std::pair<Block, Block> BlockCutter::cut(const PlaneFrame& plane, Array<Point<3>
     for (const Point<3>& p : part_.surface.points) {
         height.push_back(plane.height(p));
     }
-    const std::vector<char> above = divide_surface(part_.surface, adjacency_, height, spacing_);
-    const Array<Facet<2>> rim = edges_between(part_.surface, adjacency_, above);
+    const std::vector<char> above = divide_surface(part_.surface, boundary_.neighbors(), height, spacing_);
+    const Array<Facet<2>> rim = edges_between(part_.surface, boundary_.neighbors(), above);
     const BlockInterface interface = span_curves(part_.surface.points, rim, plane, size_, growth_);
 
     std::array<Array<Facet<3>>, 2> sides{side(above, 0), side(above, 1)};
@@ -238,17 +239,18 @@ class DomainCutter {
 public:
     DomainCutter(const SizeField<3>& size, double growth) : size_{size}, growth_{growth} {}
 
-    DomainBlocks run(const Surface<3>& surface, std::vector<LoadSample> load, int count) {
+    DomainBlocks run(const Boundary<3>& boundary, const Surface<3>& surface, std::vector<LoadSample> load,
+                     int count) {
         result_.points = surface.points;
-        divide({surface.facets, std::move(load)}, count);
+        divide({surface.facets, std::move(load)}, count, &boundary);
         return std::move(result_);
     }
 
 private:
-    void divide(Block block, int count) {
+    void divide(Block block, int count, const Boundary<3>* boundary = nullptr) {
         if (count > 1) {
             const int below = count / 2;
-            auto parts = BlockCutter{result_.points, block, size_, growth_}.run(
+            auto parts = BlockCutter{result_.points, block, size_, growth_, boundary}.run(
                 static_cast<double>(below) / count, result_.points);
             if (parts) {
                 block = {};
@@ -267,9 +269,9 @@ private:
 
 } // namespace
 
-DomainBlocks cut_domain(const Surface<3>& surface, const SizeField<3>& size, double growth,
-                        std::vector<LoadSample> load, int count) {
-    return DomainCutter{size, growth}.run(surface, std::move(load), count);
+DomainBlocks cut_domain(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                        double growth, std::vector<LoadSample> load, int count) {
+    return DomainCutter{size, growth}.run(boundary, surface, std::move(load), count);
 }
 
 BlockSurface surface_of_block(const Array<Point<3>>& points, const Array<Facet<3>>& facets) {

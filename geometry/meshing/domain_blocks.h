@@ -4,7 +4,7 @@
 #include "geometry/meshing/domain_load.h"
 
 #include "slabhull/geometry/size_field.h"
-#include "slabhull/topology/spatial_mesh.h"
+#include "slabhull/topology/boundary.h"
 
 #include <vector>
 
@@ -17,14 +17,14 @@ struct DomainBlocks {
     std::vector<Array<Facet<3>>> facets;
 };
 
-/// Cuts the domain inside a surface in `count` blocks that want about as many cells each, halving by halving:
-/// along the shortest curves on the boundary near a plane, and between them across the domain. Interfaces
-/// have the wanted spacing and good angles, run square to the boundary where that can be had, keep off what
-/// lies along them, and cross nothing (exactly). A block that no plane cuts so is left whole: there may be
-/// fewer. `load` is that of the domain. Deterministic. Needs: the boundary of a domain, see
-/// require_domain_boundary().
-DomainBlocks cut_domain(const Surface<3>& surface, const SizeField<3>& size, double growth,
-                        std::vector<LoadSample> load, int count);
+/// Cuts the domain inside a boundary that lies as in `surface` in `count` blocks that want about as many
+/// cells each, halving by halving: along the shortest curves on the boundary near a plane, and between them
+/// across the domain. Interfaces have the wanted spacing and good angles, run square to the boundary where
+/// that can be had, keep off what lies along them, and cross nothing (exactly). A block that no plane cuts so
+/// is left whole: there may be fewer. `load` is that of the domain. Deterministic. Needs: the boundary of a
+/// domain, see require_domain_boundary().
+DomainBlocks cut_domain(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                        double growth, std::vector<LoadSample> load, int count);
 
 /// A block by itself, and which of the points each of its is, ascending.
 struct BlockSurface {

@@ -38,8 +38,8 @@ double distance_along(const Point<3>& from, const Point<3>& direction, const Fac
 
 class SeedSearch {
 public:
-    SeedSearch(const Surface<3>& surface, const Components& parts)
-        : surface_{surface}, parts_{parts}, tree_{facet_boxes(surface)} {
+    SeedSearch(const Boundary<3>& boundary, const Surface<3>& surface)
+        : boundary_{boundary}, surface_{surface}, tree_{facet_boxes(surface)} {
         Box<3> all;
         for (const Point<3>& p : surface.points) {
             all.include(p);
@@ -58,8 +58,8 @@ private:
     double reach(Index facet, const Point<3>& from, const Point<3>& direction) const;
     bool proven(Index part, const Point<3>& place) const;
 
+    const Boundary<3>& boundary_;
     const Surface<3>& surface_;
-    const Components& parts_;
     BoxTree<3> tree_;
     double diameter_;
 };
@@ -98,8 +98,8 @@ SeedSearch::Candidate SeedSearch::behind(Index facet) const {
 
 bool SeedSearch::proven(Index part, const Point<3>& place) const {
     return all_finite(place) && winding_number<3>(surface_, tree_, place, [](Index) { return true; }) == 0 &&
-           winding_number<3>(surface_, tree_, place, [&](Index f) { return parts_.of_facet[f] == part; }) ==
-               -1;
+           winding_number<3>(surface_, tree_, place,
+                             [&](Index f) { return boundary_.component(f) == part; }) == -1;
 }
 
 Point<3> SeedSearch::inside(Index part, const std::vector<Index>& facets) const {
@@ -123,19 +123,18 @@ Point<3> SeedSearch::inside(Index part, const std::vector<Index>& facets) const 
 
 } // namespace
 
-std::vector<Point<3>> hole_seeds(const Surface<3>& surface) {
-    const Adjacency<2> adjacency = build_adjacency<2>(surface.facets, surface.points.size());
-    const Components parts = find_components(surface, adjacency);
-    std::vector<std::vector<Index>> facets(parts.count());
-    for (Index f = 0; f < surface.facets.size(); ++f) {
-        facets[parts.of_facet[f]].push_back(f);
+std::vector<Point<3>> hole_seeds(const Boundary<3>& boundary, const Surface<3>& surface) {
+    const std::vector<double> enclosed = enclosed_by_components(boundary, surface);
+    std::vector<std::vector<Index>> facets(enclosed.size());
+    for (Index f = 0; f < boundary.facet_count(); ++f) {
+        facets[boundary.component(f)].push_back(f);
     }
     std::optional<SeedSearch> search; // its tree is for nothing when there are no bodies
     std::vector<Point<3>> seeds;
-    for (Index part = 0; part < parts.count(); ++part) {
-        if (!(parts.enclosed[part] > 0)) {
+    for (Index part = 0; part < enclosed.size(); ++part) {
+        if (!(enclosed[part] > 0)) {
             if (!search) {
-                search.emplace(surface, parts);
+                search.emplace(boundary, surface);
             }
             seeds.push_back(search->inside(part, facets[part]));
         }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "slabhull/core/point.h"
-#include "slabhull/topology/spatial_mesh.h"
+#include "slabhull/topology/boundary.h"
 
 #include <vector>
 
@@ -13,6 +13,6 @@ namespace slabhull {
 /// inside its body and outside the domain.
 /// Needs: the boundary of a domain, see require_domain_boundary().
 /// Throws GeometryError when a body is so thin that no such point is found in floating point.
-std::vector<Point<3>> hole_seeds(const Surface<3>& surface);
+std::vector<Point<3>> hole_seeds(const Boundary<3>& boundary, const Surface<3>& surface);
 
 } // namespace slabhull

@@ -15,8 +15,10 @@ namespace slabhull {
 /// Fills the inside of a closed surface, in a child process. What comes back is to be verified.
 /// Needs: the boundary of a domain, see require_domain_boundary().
 /// Throws GeometryError when the mesher fails, UsageError when this build does not have it.
-CapMesh<3> fill_with_tetgen(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options);
-CapMesh<3> fill_with_hxt(const Surface<3>& surface, const SizeField<3>& size, const CapOptions& options);
+CapMesh<3> fill_with_tetgen(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                            const CapOptions& options);
+CapMesh<3> fill_with_hxt(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                         const CapOptions& options);
 
 bool has_tetgen();
 bool has_hxt();

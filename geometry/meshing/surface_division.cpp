@@ -36,9 +36,9 @@ using FlowGraph =
 
 class Divider {
 public:
-    Divider(const Surface<3>& surface, const Adjacency<2>& adjacency, std::span<const double> height,
-            std::span<const double> spacing)
-        : surface_{surface}, adjacency_{adjacency}, height_{height}, spacing_{spacing} {}
+    Divider(const Surface<3>& surface, std::span<const Neighbors<2>> neighbors,
+            std::span<const double> height, std::span<const double> spacing)
+        : surface_{surface}, neighbors_{neighbors}, height_{height}, spacing_{spacing} {}
 
     std::vector<char> run() {
         above_.resize(surface_.facets.size());
@@ -72,7 +72,7 @@ private:
         for (std::size_t node = 0; node < free_.size(); ++node) {
             const Index f = free_[node];
             for (std::size_t i = 0; i < 3; ++i) {
-                const Index across = adjacency_.neighbors[f][i];
+                const Index across = neighbors_[f][i];
                 const Flow price = cost(f, i);
                 if (node_[across] == no_index) {
                     connect(graph, node, above_[across] != 0 ? up : down, price);
@@ -109,7 +109,7 @@ private:
     }
 
     const Surface<3>& surface_;
-    const Adjacency<2>& adjacency_;
+    std::span<const Neighbors<2>> neighbors_;
     std::span<const double> height_;
     std::span<const double> spacing_;
     std::vector<char> above_;
@@ -119,17 +119,17 @@ private:
 
 } // namespace
 
-std::vector<char> divide_surface(const Surface<3>& surface, const Adjacency<2>& adjacency,
+std::vector<char> divide_surface(const Surface<3>& surface, std::span<const Neighbors<2>> neighbors,
                                  std::span<const double> height, std::span<const double> spacing) {
-    return Divider{surface, adjacency, height, spacing}.run();
+    return Divider{surface, neighbors, height, spacing}.run();
 }
 
-Array<Facet<2>> edges_between(const Surface<3>& surface, const Adjacency<2>& adjacency,
+Array<Facet<2>> edges_between(const Surface<3>& surface, std::span<const Neighbors<2>> neighbors,
                               const std::vector<char>& above) {
     Array<Facet<2>> edges;
     for (Index f = 0; f < surface.facets.size(); ++f) {
         for (std::size_t i = 0; i < 3; ++i) {
-            if (above[f] == 0 && above[adjacency.neighbors[f][i]] != 0) {
+            if (above[f] == 0 && above[neighbors[f][i]] != 0) {
                 edges.push_back({surface.facets[f][(i + 1) % 3], surface.facets[f][(i + 2) % 3]});
             }
         }

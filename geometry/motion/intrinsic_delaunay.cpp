@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/motion/intrinsic_delaunay.h"
 
-#include "geometry/basics/vector_algebra.h"
-
-#include "slabhull/topology/adjacency.h"
+#include "slabhull/core/vector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,16 +34,17 @@ using HalfEdge = Index;
 ///            b                  b
 class IntrinsicTriangulation {
 public:
-    IntrinsicTriangulation(std::span<const Point<3>> points, std::span<const Facet<3>> facets) {
-        for (const Facet<3>& facet : facets) {
+    IntrinsicTriangulation(const Boundary<3>& boundary, std::span<const Index> facets) {
+        for (const Index f : facets) {
+            const Facet<3>& facet = boundary.facets()[f];
             const auto first = static_cast<HalfEdge>(from_.size());
             for (Index i = 0; i < 3; ++i) {
                 from_.push_back(facet[i]);
                 next_.push_back(first + (i + 1) % 3);
-                length_.push_back(norm(minus(points[facet[i]], points[facet[(i + 1) % 3]])));
+                length_.push_back(distance(boundary.start()[facet[i]], boundary.start()[facet[(i + 1) % 3]]));
             }
         }
-        find_twins(build_adjacency<2>(facets, points.size()));
+        find_twins(boundary, facets);
     }
 
     /// Bounded, since rounding might turn needles to and fro for ever; weights then stay a little negative.
@@ -84,15 +83,18 @@ public:
     }
 
 private:
-    void find_twins(const Adjacency<2>& adjacency) {
+    /// Of the boundary's: no_index across the rim of the chosen facets.
+    void find_twins(const Boundary<3>& boundary, std::span<const Index> facets) {
+        std::vector<Index> chosen(boundary.facet_count(), no_index);
+        for (Index k = 0; k < facets.size(); ++k) {
+            chosen[facets[k]] = k;
+        }
         twin_.assign(from_.size(), no_index);
-        for (Index f = 0; f < adjacency.neighbors.size(); ++f) {
-            for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) { // from vertex h % 3, so opposite to the one before
-                const Index across = adjacency.neighbors[f][(h + 2) % 3];
-                for (Index i = 0; across != no_index && i < 3; ++i) {
-                    if (from_[3 * across + i] == to(h) && to(3 * across + i) == from_[h]) {
-                        twin_[h] = 3 * across + i;
-                    }
+        for (Index k = 0; k < facets.size(); ++k) {
+            for (Index i = 0; i < 3; ++i) { // half-edge i + 1 is opposite to corner i
+                const TwinFacet twin = boundary.twin(facets[k], i);
+                if (chosen[twin.facet] != no_index) {
+                    twin_[3 * k + (i + 1) % 3] = 3 * chosen[twin.facet] + (twin.corner + 1u) % 3;
                 }
             }
         }
@@ -155,9 +157,8 @@ private:
 
 } // namespace
 
-std::vector<WeightedEdge> cotangent_edges(std::span<const Point<3>> points,
-                                          std::span<const Facet<3>> facets) {
-    IntrinsicTriangulation triangulation{points, facets};
+std::vector<WeightedEdge> cotangent_edges(const Boundary<3>& boundary, std::span<const Index> facets) {
+    IntrinsicTriangulation triangulation{boundary, facets};
     triangulation.make_delaunay();
     return triangulation.edges();
 }

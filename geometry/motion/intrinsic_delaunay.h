@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "slabhull/core/array.h"
-#include "slabhull/core/point.h"
+#include "slabhull/topology/boundary.h"
 
 #include <span>
 #include <vector>
@@ -16,7 +15,8 @@ struct WeightedEdge {
     double weight;
 };
 
-/// Cotangent weights (cot alpha + cot beta) / 2 of a piece of a surface, never negative inside of it.
+/// Cotangent weights (cot alpha + cot beta) / 2 of some facets of a boundary where it was opened, never
+/// negative between them.
 ///
 /// The edges are those of the surface's intrinsic Delaunay triangulation: those of the given triangles are
 /// flipped on the surface, which keeps its shape, until all weights are non-negative. So a harmonic function
@@ -26,8 +26,8 @@ struct WeightedEdge {
 /// Fisher, Springborn, Bobenko, Schroeder, "An algorithm for the construction of intrinsic Delaunay
 /// triangulations with applications to digital geometry processing" (2007).
 ///
-/// Needs: triangles of an oriented manifold with or without boundary, with different vertices.
+/// Needs: facets in ascending order.
 /// Cost: near-linear where few edges must be flipped.
-std::vector<WeightedEdge> cotangent_edges(std::span<const Point<3>> points, std::span<const Facet<3>> facets);
+std::vector<WeightedEdge> cotangent_edges(const Boundary<3>& boundary, std::span<const Index> facets);
 
 } // namespace slabhull::detail

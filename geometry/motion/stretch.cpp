@@ -21,26 +21,23 @@ namespace {
 using namespace detail;
 
 /// The facets of some patches, and which of their vertices are led by other patches.
-template<int D>
 struct StretchedPart {
-    std::vector<Facet<D>> facets;
-    std::vector<PatchNumber> patch; ///< of each facet
-    std::vector<Index> inner;       ///< vertices that follow, ascending
-    std::vector<Index> leading;     ///< vertices shared with other patches, ascending
+    std::vector<Index> facets;  ///< of the boundary, ascending
+    std::vector<Index> inner;   ///< vertices that follow, ascending
+    std::vector<Index> leading; ///< vertices shared with other patches, ascending
 };
 
 template<int D>
-StretchedPart<D> part_of(const Surface<D>& surface, const std::set<PatchNumber>& patches) {
-    StretchedPart<D> part;
-    std::vector<bool> inside(surface.points.size(), false);
-    std::vector<bool> outside(surface.points.size(), false);
-    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-        const bool stretched = patches.contains(surface.patch[f]);
+StretchedPart part_of(const Boundary<D>& boundary, const std::set<PatchNumber>& patches) {
+    StretchedPart part;
+    std::vector<bool> inside(boundary.vertex_count(), false);
+    std::vector<bool> outside(boundary.vertex_count(), false);
+    for (Index f = 0; f < boundary.facet_count(); ++f) {
+        const bool stretched = patches.contains(boundary.patch()[f]);
         if (stretched) {
-            part.facets.push_back(surface.facets[f]);
-            part.patch.push_back(surface.patch[f]);
+            part.facets.push_back(f);
         }
-        for (const Index v : surface.facets[f]) {
+        for (const Index v : boundary.facets()[f]) {
             (stretched ? inside : outside)[v] = true;
         }
     }
@@ -76,56 +73,57 @@ private:
 };
 
 template<int D>
-[[noreturn]] void refuse_unled(const Surface<D>& surface, PatchNumber patch, Index vertex) {
-    const std::string name = patch_name(surface.patches, patch);
+[[noreturn]] void refuse_unled(const Boundary<D>& boundary, PatchNumber patch, Index vertex) {
+    const std::string name = patch_name(boundary.patches(), patch);
     throw UsageError{fmt::format("patch {} is to stretch, but nothing leads its part around vertex {} at {}: "
                                  "it shares no vertex with a patch that does not stretch. Give it, or a "
                                  "neighbour, another motion",
-                                 name, vertex, to_text(surface.points[vertex])),
+                                 name, vertex, to_text(boundary.start()[vertex])),
                      {{"vertex", vertex, name}}};
 }
 
 template<int D>
-void require_led(const Surface<D>& surface, const StretchedPart<D>& part) {
-    JoinedVertices joined{surface.points.size()};
-    for (const Facet<D>& facet : part.facets) {
-        for (const Index v : facet) {
-            joined.join(facet[0], v);
+void require_led(const Boundary<D>& boundary, const StretchedPart& part) {
+    JoinedVertices joined{boundary.vertex_count()};
+    for (const Index f : part.facets) {
+        for (const Index v : boundary.facets()[f]) {
+            joined.join(boundary.facets()[f][0], v);
         }
     }
-    std::vector<bool> led(surface.points.size(), false);
+    std::vector<bool> led(boundary.vertex_count(), false);
     for (const Index v : part.leading) {
         led[joined.representative(v)] = true;
     }
-    for (std::size_t f = 0; f < part.facets.size(); ++f) {
-        const Index v = part.facets[f][0];
+    for (const Index f : part.facets) {
+        const Index v = boundary.facets()[f][0];
         if (!led[joined.representative(v)]) {
-            refuse_unled(surface, part.patch[f], v);
+            refuse_unled(boundary, boundary.patch()[f], v);
         }
     }
 }
 
-std::vector<WeightedEdge> weighted_edges(std::span<const Point<2>> points, std::span<const Facet<2>> facets) {
+std::vector<WeightedEdge> weighted_edges(const Boundary<2>& boundary, std::span<const Index> facets) {
     std::vector<WeightedEdge> edges;
-    for (const auto& [a, b] : facets) {
-        edges.push_back({a, b, 1 / norm(minus(points[a], points[b]))});
+    for (const Index f : facets) {
+        const auto& [a, b] = boundary.facets()[f];
+        edges.push_back({a, b, 1 / distance(boundary.start()[a], boundary.start()[b])});
     }
     return edges;
 }
 
-std::vector<WeightedEdge> weighted_edges(std::span<const Point<3>> points, std::span<const Facet<3>> facets) {
-    return cotangent_edges(points, facets);
+std::vector<WeightedEdge> weighted_edges(const Boundary<3>& boundary, std::span<const Index> facets) {
+    return cotangent_edges(boundary, facets);
 }
 
 /// Laplace's equation for the displacements of the inner vertices, those of the leading ones given.
 template<int D>
 class HarmonicStretch final : public Stretch<D> {
 public:
-    HarmonicStretch(const Surface<D>& start, const std::set<PatchNumber>& patches)
-        : part_{part_of(start, patches)}, start_{start.points} {
-        require_led(start, part_);
+    HarmonicStretch(const Boundary<D>& boundary, const std::set<PatchNumber>& patches)
+        : part_{part_of(boundary, patches)}, start_{boundary.start().begin(), boundary.start().end()} {
+        require_led(boundary, part_);
         if (!part_.inner.empty()) {
-            assemble(weighted_edges(start.points, part_.facets));
+            assemble(weighted_edges(boundary, part_.facets));
         }
     }
 
@@ -207,7 +205,7 @@ private:
         return follows;
     }
 
-    StretchedPart<D> part_;
+    StretchedPart part_;
     Array<Point<D>> start_;
     Matrix coupling_;
     Eigen::SimplicialLDLT<Matrix> factors_;
@@ -216,11 +214,11 @@ private:
 } // namespace
 
 template<int D>
-StretchPointer<D> harmonic_stretch(const Surface<D>& start, const std::set<PatchNumber>& patches) {
-    return std::make_shared<HarmonicStretch<D>>(start, patches);
+StretchPointer<D> harmonic_stretch(const Boundary<D>& boundary, const std::set<PatchNumber>& patches) {
+    return std::make_shared<HarmonicStretch<D>>(boundary, patches);
 }
 
-template StretchPointer<2> harmonic_stretch<2>(const Surface<2>&, const std::set<PatchNumber>&);
-template StretchPointer<3> harmonic_stretch<3>(const Surface<3>&, const std::set<PatchNumber>&);
+template StretchPointer<2> harmonic_stretch<2>(const Boundary<2>&, const std::set<PatchNumber>&);
+template StretchPointer<3> harmonic_stretch<3>(const Boundary<3>&, const std::set<PatchNumber>&);
 
 } // namespace slabhull

@@ -11,12 +11,12 @@ namespace {
 
 /// Numbers of a cap's vertices with the swept ones first; the others keep their order.
 template<int D>
-std::vector<Index> swept_first(const SpatialMesh<D>& cap, const Sweep<D>& sweep) {
+std::vector<Index> swept_first(const SpatialMesh<D>& cap, std::span<const Index> cap_vertex) {
     std::vector<Index> number(cap.points.size(), no_index);
-    for (std::size_t v = 0; v < sweep.cap_vertex.size(); ++v) {
-        number[sweep.cap_vertex[v]] = static_cast<Index>(v);
+    for (std::size_t v = 0; v < cap_vertex.size(); ++v) {
+        number[cap_vertex[v]] = static_cast<Index>(v);
     }
-    auto next = static_cast<Index>(sweep.cap_vertex.size());
+    auto next = static_cast<Index>(cap_vertex.size());
     for (Index& n : number) {
         n = n == no_index ? next++ : n;
     }
@@ -46,11 +46,12 @@ CapMesh<D> renumbered(const SpatialMesh<D>& cap, std::span<const Point<D>> point
 template<int D>
 ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle) {
     const MovedCap<D> moved =
-        move_cap<D>(initial.points, initial.cells, sweep.cap_vertex, sweep.positions.back());
+        move_cap<D>(initial.points, initial.cells, sweep.boundary.mesh_vertices(), sweep.positions.back());
     ReusedCap<D> reused;
     reused.smallest_angle = moved.sound ? moved.smallest_angle : 0;
     if (reused.smallest_angle >= angle && moved.sound) {
-        reused.mesh = renumbered<D>(initial, moved.points, swept_first(initial, sweep));
+        reused.mesh =
+            renumbered<D>(initial, moved.points, swept_first(initial, sweep.boundary.mesh_vertices()));
     }
     return reused;
 }

@@ -8,16 +8,9 @@
 namespace slabhull {
 
 template<int D>
-Surface<D> MarchState<D>::start_boundary() const {
-    Surface<D> surface = boundary_of(cap);
-    surface.points = start_places;
-    return surface;
-}
-
-template<int D>
 MarchState<D> march_from(SpatialMesh<D> cap, double time, const IdCounter& ids) {
-    Array<Point<D>> places = boundary_of(cap).points;
-    return {std::move(cap), time, 0, ids, std::move(places)};
+    Boundary<D> boundary = boundary_of(cap);
+    return {std::move(cap), time, 0, ids, std::move(boundary)};
 }
 
 template<int D>
@@ -34,7 +27,8 @@ void March<D>::require_times(const std::vector<double>& times) const {
 template<int D>
 Slab<D> March<D>::propose(std::vector<double> times, StageClock& clock) const {
     require_times(times);
-    return build_slab<D>(state_.cap, state_.slab, std::move(times), settings_, state_.ids, clock);
+    return build_slab<D>(state_.cap, state_.boundary, state_.slab, std::move(times), settings_, state_.ids,
+                         clock);
 }
 
 template<int D>
@@ -46,7 +40,8 @@ Slab<D> March<D>::propose(std::vector<double> times) const {
 template<int D>
 Slab<D> March<D>::build(std::vector<double> times, StageClock& clock) {
     require_times(times);
-    return build_slab<D>(std::move(state_.cap), state_.slab, std::move(times), settings_, state_.ids, clock);
+    return build_slab<D>(std::move(state_.cap), state_.boundary, state_.slab, std::move(times), settings_,
+                         state_.ids, clock);
 }
 
 template<int D>
@@ -61,14 +56,13 @@ void March<D>::accept(Slab<D>&& slab) {
     state_.time = slab.hull.time[1];
     state_.cap = {}; // before the next one is made
     state_.cap = slab.terminating();
+    state_.boundary = state_.boundary.bounding(state_.cap.vertex_ids);
     slab.hull = {};
     first_id_ = first_id();
     state_.ids = slab.next_ids;
     ++state_.slab;
 }
 
-template struct MarchState<2>;
-template struct MarchState<3>;
 template MarchState<2> march_from<2>(SpatialMesh<2>, double, const IdCounter&);
 template MarchState<3> march_from<3>(SpatialMesh<3>, double, const IdCounter&);
 template class March<2>;

@@ -23,7 +23,7 @@ CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const 
             return std::move(reused.mesh);
         }
     }
-    CapMesh<D> mesh = mesh_cap<D>(sweep.at(sweep.layers()), settings.cap);
+    CapMesh<D> mesh = mesh_cap<D>(sweep.boundary, sweep.at(sweep.layers()), settings.cap);
     slab.cap_blocks = mesh.blocks;
     clock.book("cap meshing");
     return mesh;
@@ -32,19 +32,19 @@ CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const 
 } // namespace
 
 template<int D>
-Slab<D> build_slab(CapToStitch<D> initial, int number, std::vector<double> times,
+Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock) {
     Slab<D> slab;
-    Sweep<D> sweep = sweep_boundary<D>(initial.mesh(), settings.motions, settings.motion_start,
+    Sweep<D> sweep = sweep_boundary<D>(boundary, initial.mesh(), settings.motions, settings.motion_start,
                                        std::move(times), settings.trajectory);
     clock.book("trajectories");
     require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
     clock.book("boundary check");
     CapMesh<D> mesh = make_cap<D>(initial.mesh(), sweep, settings, slab, clock);
     IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
-    SpatialMesh<D> terminating = terminating_cap<D>(initial.mesh(), sweep, std::move(mesh), ids);
+    SpatialMesh<D> terminating = terminating_cap<D>(sweep, std::move(mesh), ids);
     slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
-    slab.terminating_facets = std::move(sweep.surface.facets);
+    slab.terminating_facets.assign(boundary.facets().begin(), boundary.facets().end());
     slab.hull.slab = number;
     slab.projected = std::move(sweep.projected);
     slab.next_ids = ids;
@@ -52,9 +52,9 @@ Slab<D> build_slab(CapToStitch<D> initial, int number, std::vector<double> times
     return slab;
 }
 
-template Slab<2> build_slab<2>(CapToStitch<2>, int, std::vector<double>, const SlabSettings<2>&, IdCounter,
-                               StageClock&);
-template Slab<3> build_slab<3>(CapToStitch<3>, int, std::vector<double>, const SlabSettings<3>&, IdCounter,
-                               StageClock&);
+template Slab<2> build_slab<2>(CapToStitch<2>, const Boundary<2>&, int, std::vector<double>,
+                               const SlabSettings<2>&, IdCounter, StageClock&);
+template Slab<3> build_slab<3>(CapToStitch<3>, const Boundary<3>&, int, std::vector<double>,
+                               const SlabSettings<3>&, IdCounter, StageClock&);
 
 } // namespace slabhull

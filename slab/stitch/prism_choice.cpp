@@ -61,8 +61,9 @@ private:
 
     Quad by_smallest_id(std::size_t facet, std::size_t q) const {
         const auto [j, k] = quad_corners<D>(q);
-        const auto& corners = facts_.sweep.surface.facets[facet];
-        return facts_.track[corners[j]] < facts_.track[corners[k]] ? Quad::rising : Quad::falling;
+        const auto& corners = facts_.sweep.boundary.facets()[facet];
+        const std::span<const TrackId> track = facts_.sweep.boundary.tracks();
+        return track[corners[j]] < track[corners[k]] ? Quad::rising : Quad::falling;
     }
 
     std::size_t diagonal_number(std::size_t layer, std::size_t facet, std::size_t q) const {
@@ -94,7 +95,7 @@ private:
         const auto [j, k] = quad_corners<D>(q);
         const auto [start, end] = quad == Quad::rising ? std::pair{j, k} : std::pair{k, j};
         double smallest = 180;
-        for (const Index apex : {apex_of(layer, facet), apex_of(layer, graph_.across[facet][q])}) {
+        for (const Index apex : {apex_of(layer, facet), apex_of(layer, graph_.across(facet, q))}) {
             for (const Index corner : {prism[end], prism[D + start]}) {
                 const Simplex<D> cell{prism[start], prism[D + end], corner, apex};
                 const auto angles = dihedral_angles<D, D + 1>(corners_of<D, D + 1>(cell, facts_.points));

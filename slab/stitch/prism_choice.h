@@ -33,7 +33,6 @@ private:
 template<int D>
 struct DiagonalFacts {
     const Sweep<D>& sweep;
-    std::span<const TrackId> track; ///< of each swept vertex
     const SideVertices<D>& vertices;
     std::span<const Point<D + 1>> points; ///< of the hull
 };

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "slabhull/core/array.h"
+#include "slabhull/topology/boundary.h"
 #include "slabhull/topology/prism_split.h"
-#include "slabhull/topology/spatial_mesh.h"
 
 #include <array>
 #include <cstddef>
@@ -14,33 +14,35 @@ namespace slabhull {
 /// and numbers for the quadrilaterals over its edges. What is said of a facet holds for the prisms over it.
 template<int D>
 struct PrismGraph {
-    /// The side of a lateral face that the prism across sees.
-    struct Door {
-        std::uint8_t face; ///< the same lateral face in the prism across
+    /// A lateral face as the prism across sees it.
+    struct TwinFace {
+        std::uint8_t face; ///< its number in the prism across
         bool turned;       ///< the prism across has the face's two corners in the other order (D = 3)
     };
     static constexpr std::size_t quads_of_facet = std::tuple_size_v<Quads<D>>;
 
-    Array<Neighbors<D - 1>> across; ///< the facet across lateral face i
-    Array<std::array<Door, D>> door;
+    Boundary<D> boundary;
+    Array<std::array<TwinFace, D>> twin; ///< of each lateral face
     /// Numbers of the facet's quadrilaterals, in the order of Quads<D>. The centred ones come first.
     Array<std::array<Index, quads_of_facet>> quad;
     std::size_t quads = 0;
     std::size_t centred = 0;
 
-    std::size_t facets() const { return across.size(); }
+    std::size_t facets() const { return boundary.facet_count(); }
+    /// The facet across lateral face i.
+    Index across(std::size_t facet, std::size_t i) const { return boundary.neighbors()[facet][i]; }
     bool is_centred(std::size_t facet, std::size_t q) const { return quad[facet][q] < centred; }
     /// Of the two facets beside a quadrilateral, the first counts as the one that has it.
-    bool owns(std::size_t facet, std::size_t q) const { return D == 2 || facet < across[facet][q]; }
+    bool owns(std::size_t facet, std::size_t q) const { return D == 2 || boundary.owns(facet, q); }
 };
 
-/// Connects the prisms over a closed boundary and decides which quadrilaterals carry centres: for B and D by
+/// Connects the prisms over a boundary and decides which quadrilaterals carry centres: for B and D by
 /// a perfect matching of the facets, which depends on their order only and so is the same in every slab of a
-/// march. Throws GeometryError when the boundary is not closed. Near-linear.
+/// march. Near-linear.
 template<int D>
-PrismGraph<D> connect_prisms(const Surface<D>& surface, const SplitRecipe& recipe);
+PrismGraph<D> connect_prisms(const Boundary<D>& boundary, const SplitRecipe& recipe);
 
-extern template PrismGraph<2> connect_prisms<2>(const Surface<2>&, const SplitRecipe&);
-extern template PrismGraph<3> connect_prisms<3>(const Surface<3>&, const SplitRecipe&);
+extern template PrismGraph<2> connect_prisms<2>(const Boundary<2>&, const SplitRecipe&);
+extern template PrismGraph<3> connect_prisms<3>(const Boundary<3>&, const SplitRecipe&);
 
 } // namespace slabhull

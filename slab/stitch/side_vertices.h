@@ -16,7 +16,7 @@ class SideVertices {
 public:
     SideVertices(std::size_t initial_points, const Sweep<D>& sweep, const PrismGraph<D>& graph,
                  const SplitRecipe& recipe)
-        : sweep_{sweep}, graph_{graph}, begin_{initial_points}, boundary_{sweep.surface.points.size()},
+        : sweep_{sweep}, graph_{graph}, begin_{initial_points}, boundary_{sweep.boundary.vertex_count()},
           face_centres_{D == 3 ? graph.centred : 0},
           prism_centres_{recipe.apex == SplitRecipe::Apex::prism_centre ? graph.facets() : 0} {}
 
@@ -28,7 +28,7 @@ public:
     }
     std::size_t on_level(std::size_t level, Index v) const {
         if (level == 0) {
-            return sweep_.cap_vertex[v];
+            return sweep_.boundary.mesh_vertices()[v];
         }
         return level == sweep_.layers() ? end() + v : layer_begin(level) - boundary_ + v;
     }
@@ -46,7 +46,7 @@ public:
             points[static_cast<std::size_t>(local)] = static_cast<Index>(vertex);
         };
         for (int i = 0; i < D; ++i) {
-            const Index v = sweep_.surface.facets[facet][static_cast<std::size_t>(i)];
+            const Index v = sweep_.boundary.facets()[facet][static_cast<std::size_t>(i)];
             put(PrismPoint<D>::bottom(i), on_level(layer, v));
             put(PrismPoint<D>::top(i), on_level(layer + 1, v));
             if constexpr (D == 3) {

@@ -43,8 +43,8 @@ public:
              const SideOptions& options, IdCounter& ids)
         : initial_{initial}, sweep_{sweep}, terminating_{terminating}, options_{options}, ids_{ids},
           recipe_{recipe_of(options.split)}, templates_{templates_of<D>(options.split)},
-          graph_{connect_prisms<D>(sweep.surface, recipe_)}, vertices_{initial.mesh().points.size(), sweep,
-                                                                       graph_, recipe_} {}
+          graph_{connect_prisms<D>(sweep.boundary, recipe_)}, vertices_{initial.mesh().points.size(), sweep,
+                                                                        graph_, recipe_} {}
 
     /// The caps go first: memory of the hull is taken when it is written to, and theirs may be given back.
     Hull<D> run() {
@@ -73,8 +73,8 @@ private:
         hull_.layers = sweep_.layers();
         hull_.cells_per_prism = static_cast<std::size_t>(simplices_per_prism(options_.split));
         hull_.side_cells = hull_.layers * graph_.facets() * hull_.cells_per_prism;
-        hull_.facet_patch = sweep_.surface.patch;
-        hull_.patches = sweep_.surface.patches;
+        hull_.facet_patch.assign(sweep_.boundary.patch().begin(), sweep_.boundary.patch().end());
+        hull_.patches = sweep_.boundary.patches();
         hull_.time = {sweep_.times.front(), sweep_.times.back()};
         const std::size_t points = vertices_.end() + terminating_.mesh().points.size();
         const std::size_t cells = hull_.terminating_begin() + terminating_.mesh().cells.size();
@@ -92,10 +92,10 @@ private:
         hull_.track_ids.append(initial.track_ids);
         hull_.vertex_ids.append_run(ids_.take(hull_.side_points), hull_.side_points, 1);
         const std::size_t centres =
-            (hull_.side_points - (sweep_.layers() - 1) * sweep_.tracks.size()) / sweep_.layers();
+            (hull_.side_points - (sweep_.layers() - 1) * sweep_.boundary.tracks().size()) / sweep_.layers();
         for (std::size_t layer = 0; layer < sweep_.layers(); ++layer) {
             if (layer > 0) {
-                hull_.track_ids.append(sweep_.tracks);
+                hull_.track_ids.append(sweep_.boundary.tracks());
             }
             hull_.track_ids.append_run(no_track, centres, 0);
         }
@@ -138,7 +138,7 @@ private:
 
     void place_side_vertices() {
         for (std::size_t level = 1; level < sweep_.layers(); ++level) {
-            for_each_index(sweep_.cap_vertex.size(), items_per_piece, [&](std::size_t v) {
+            for_each_index(sweep_.boundary.vertex_count(), items_per_piece, [&](std::size_t v) {
                 hull_.points[vertices_.on_level(level, static_cast<Index>(v))] =
                     at_time<D>(sweep_.positions[level][v], sweep_.times[level]);
             });
@@ -153,7 +153,7 @@ private:
             return;
         }
         for_each_index(graph_.facets(), prisms_per_piece, [&](std::size_t facet) {
-            const auto& corners = sweep_.surface.facets[facet];
+            const auto& corners = sweep_.boundary.facets()[facet];
             if (vertices_.has_prism_centres()) {
                 hull_.points[vertices_.prism_centre(layer, facet)] = mean_of_columns(layer, corners);
             }
@@ -185,7 +185,7 @@ private:
     }
 
     void place_side_cells() {
-        choice_ = choose_templates<D>(options_, graph_, {sweep_, sweep_.tracks, vertices_, hull_.points});
+        choice_ = choose_templates<D>(options_, graph_, {sweep_, vertices_, hull_.points});
         for_each_index(hull_.layers * graph_.facets(), prisms_per_piece, [this](std::size_t prism) {
             place_prism(prism / graph_.facets(), prism % graph_.facets());
         });
@@ -229,8 +229,8 @@ private:
         outside[Template::top] =
             layer + 1 == hull_.layers ? no_index : cell_in_slot(layer + 1, facet, Template::bottom);
         for (std::size_t face = 0; face < D; ++face) {
-            const auto [entry, turned] = graph_.door[facet][face];
-            const Index across = graph_.across[facet][face];
+            const auto [entry, turned] = graph_.twin[facet][face];
+            const Index across = graph_.across(facet, face);
             const Template& beyond = template_at(layer, across);
             const auto first_beyond = static_cast<Index>(first_cell(layer, across));
             for (std::size_t piece = 0; piece < Template::pieces; ++piece) {
@@ -286,21 +286,19 @@ private:
 } // namespace
 
 template<int D>
-SpatialMesh<D> terminating_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, CapMesh<D>&& mesh,
-                               IdCounter& ids) {
+SpatialMesh<D> terminating_cap(const Sweep<D>& sweep, CapMesh<D>&& mesh, IdCounter& ids) {
+    const Boundary<D>& boundary = sweep.boundary;
     SpatialMesh<D> cap;
-    cap.boundary_facets = sweep.surface.facets;
-    cap.boundary_patch = sweep.surface.patch;
-    cap.patches = sweep.surface.patches;
+    cap.boundary_facets.assign(boundary.facets().begin(), boundary.facets().end());
+    cap.boundary_patch.assign(boundary.patch().begin(), boundary.patch().end());
+    cap.patches = boundary.patches();
     cap.vertex_ids.resize(mesh.points.size());
     PersistentId id = ids.take(mesh.points.size());
     for (PersistentId& given : cap.vertex_ids) {
         given = id++;
     }
     cap.track_ids.assign(mesh.points.size(), no_track);
-    for (std::size_t v = 0; v < sweep.cap_vertex.size(); ++v) {
-        cap.track_ids[v] = initial.track_ids[sweep.cap_vertex[v]];
-    }
+    std::copy(boundary.tracks().begin(), boundary.tracks().end(), cap.track_ids.begin());
     cap.points = std::move(mesh.points);
     cap.cells = std::move(mesh.cells);
     cap.neighbors = std::move(mesh.neighbors);
@@ -338,14 +336,14 @@ SpatialMesh<D> terminating_cap_of(const Hull<D>& hull, Array<Facet<D>> boundary_
 template<int D>
 std::size_t side_vertex_count(const Sweep<D>& sweep, Split split) {
     const SplitRecipe& recipe = recipe_of(split);
-    const std::size_t facets = sweep.surface.facets.size();
+    const std::size_t facets = sweep.boundary.facet_count();
     std::size_t centres = recipe.apex == SplitRecipe::Apex::prism_centre ? facets : 0;
     if constexpr (D ==
                   3) { // of a prism's three quadrilaterals one is shared with its partner; each is in two
         centres += recipe.shared == SplitRecipe::Carries::centre ? facets / 2 : 0;
         centres += recipe.others == SplitRecipe::Carries::centre ? facets : 0;
     }
-    return sweep.layers() * centres + (sweep.layers() - 1) * sweep.surface.points.size();
+    return sweep.layers() * centres + (sweep.layers() - 1) * sweep.boundary.vertex_count();
 }
 
 template<int D>
@@ -354,8 +352,8 @@ Hull<D> stitch(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> ter
     return Stitcher<D>{initial, sweep, terminating, options, ids}.run();
 }
 
-template SpatialMesh<2> terminating_cap<2>(const SpatialMesh<2>&, const Sweep<2>&, CapMesh<2>&&, IdCounter&);
-template SpatialMesh<3> terminating_cap<3>(const SpatialMesh<3>&, const Sweep<3>&, CapMesh<3>&&, IdCounter&);
+template SpatialMesh<2> terminating_cap<2>(const Sweep<2>&, CapMesh<2>&&, IdCounter&);
+template SpatialMesh<3> terminating_cap<3>(const Sweep<3>&, CapMesh<3>&&, IdCounter&);
 template std::size_t side_vertex_count<2>(const Sweep<2>&, Split);
 template std::size_t side_vertex_count<3>(const Sweep<3>&, Split);
 template Hull<2> stitch<2>(CapToStitch<2>, const Sweep<2>&, CapToStitch<2>, const SideOptions&, IdCounter&);

@@ -28,42 +28,6 @@ constexpr double agreement = 1e-9;
 
 constexpr std::size_t most_listed = 8;
 
-/// The vertices of some patches, ascending.
-template<int D>
-std::vector<Index> vertices_of(const Surface<D>& surface, const std::vector<PatchNumber>& patches) {
-    std::vector<bool> wanted(surface.points.size(), false);
-    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-        if (std::find(patches.begin(), patches.end(), surface.patch[f]) != patches.end()) {
-            for (const Index v : surface.facets[f]) {
-                wanted[v] = true;
-            }
-        }
-    }
-    std::vector<Index> vertices;
-    for (std::size_t v = 0; v < wanted.size(); ++v) {
-        if (wanted[v]) {
-            vertices.push_back(static_cast<Index>(v));
-        }
-    }
-    return vertices;
-}
-
-/// The shortest edge at each vertex of a surface.
-template<int D>
-std::vector<double> shortest_edges(const Array<Facet<D>>& facets, std::span<const Point<D>> places) {
-    std::vector<double> shortest(places.size(), std::numeric_limits<double>::infinity());
-    for (const Facet<D>& facet : facets) {
-        for (std::size_t i = 0; i < D; ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                const double length = distance(places[facet[i]], places[facet[j]]);
-                shortest[facet[i]] = std::min(shortest[facet[i]], length);
-                shortest[facet[j]] = std::min(shortest[facet[j]], length);
-            }
-        }
-    }
-    return shortest;
-}
-
 void merge(ProjectionReport& into, const ProjectionReport& more) {
     const std::size_t count = into.count + more.count;
     if (count > 0) {
@@ -81,7 +45,7 @@ template<int D>
 BoundaryMover<D>::BoundaryMover(const Sweep<D>& sweep, const PatchMotions<D>& motions, double motion_start,
                                 const TrajectoryOptions& options)
     : sweep_{sweep}, motions_{motions},
-      motion_start_{motion_start}, options_{options}, extent_{extent_of<D>(sweep.surface.points)} {
+      motion_start_{motion_start}, options_{options}, extent_{extent_of<D>(sweep.positions.front())} {
     make_groups();
     make_creases();
 }
@@ -90,7 +54,7 @@ template<int D>
 void BoundaryMover<D>::make_groups() {
     MotionGroup standing;
     MotionGroup stretching;
-    for (const Patch& patch : sweep_.surface.patches) {
+    for (const Patch& patch : sweep_.boundary.patches()) {
         const auto found = motions_.find(patch.number);
         if (found == motions_.end()) {
             standing.patches.push_back(patch.number);
@@ -104,20 +68,20 @@ void BoundaryMover<D>::make_groups() {
     groups_.push_back(std::move(standing));
     groups_.push_back(std::move(stretching));
     for (MotionGroup& group : groups_) {
-        group.vertices = vertices_of<D>(sweep_.surface, group.patches);
+        group.vertices = sweep_.boundary.vertices_of(group.patches);
     }
 }
 
 template<int D>
 void BoundaryMover<D>::make_creases() {
     creases_.push_back({}); // of no patch
-    std::vector<std::size_t> crease_at(sweep_.surface.points.size(), 0);
+    std::vector<std::size_t> crease_at(sweep_.boundary.vertex_count(), 0);
     for (const auto& [patch, moving] : motions_) {
         if (moving.surface == nullptr) {
             continue;
         }
         std::map<std::size_t, std::size_t> with_this; // the crease of one patch more
-        for (const Index v : vertices_of<D>(sweep_.surface, {patch})) {
+        for (const Index v : sweep_.boundary.vertices_of({patch})) {
             const auto [found, fresh] = with_this.try_emplace(crease_at[v], creases_.size());
             if (fresh) {
                 creases_.push_back({creases_[crease_at[v]].patches, {}});
@@ -143,7 +107,7 @@ Array<Point<D>> BoundaryMover<D>::move(const Array<Point<D>>& from_places, doubl
         groups_.back().moving->stretch->follow(places);
     }
     if (!creases_.empty()) {
-        const std::vector<double> edges = shortest_edges<D>(sweep_.surface.facets, places);
+        const std::vector<double> edges = sweep_.boundary.shortest_edges(places);
         for (const Crease& crease : creases_) {
             project_crease(crease, places, edges, to);
         }
@@ -163,7 +127,7 @@ void BoundaryMover<D>::advance(MotionGroup& group, const Array<Point<D>>& before
     } else if (group.moving != nullptr && group.moving->nodal != nullptr) {
         std::vector<TrackId> tracks;
         for (const Index v : group.vertices) {
-            tracks.push_back(sweep_.tracks[v]);
+            tracks.push_back(sweep_.boundary.tracks()[v]);
         }
         group.moving->nodal->positions(tracks, to, group.places);
     }
@@ -198,7 +162,7 @@ void BoundaryMover<D>::refuse(const MotionGroup& a, const MotionGroup& b, double
             if (distance(a.places[i], b.places[j]) > agreement * extent_) {
                 apart.push_back(vertex_entity(a.vertices[i], a.patches));
                 listed.push_back(fmt::format("{} at ({:.6g})", apart.back().number,
-                                             fmt::join(sweep_.surface.points[a.vertices[i]], ", ")));
+                                             fmt::join(sweep_.positions.front()[a.vertices[i]], ", ")));
             }
             ++i;
             ++j;
@@ -219,14 +183,15 @@ template<int D>
 std::string BoundaryMover<D>::names(const std::vector<PatchNumber>& patches) const {
     std::string text = patches.size() > 1 ? "patches" : "patch";
     for (const PatchNumber number : patches) {
-        text += " " + patch_name(sweep_.surface.patches, number);
+        text += " " + patch_name(sweep_.boundary.patches(), number);
     }
     return text;
 }
 
 template<int D>
 Entity BoundaryMover<D>::vertex_entity(Index vertex, const std::vector<PatchNumber>& patches) const {
-    return {"vertex", sweep_.cap_vertex[vertex], patch_name(sweep_.surface.patches, patches.front())};
+    return {"vertex", sweep_.boundary.mesh_vertices()[vertex],
+            patch_name(sweep_.boundary.patches(), patches.front())};
 }
 
 template<int D>
@@ -270,8 +235,8 @@ void BoundaryMover<D>::require_room(const Crease& crease, std::span<const double
             "projection of {} at t = {:.9g} would move {} vertices by more than half of their "
             "shortest edge, the farthest, vertex {} at ({:.6g}), by {:.4g} with an edge of {:.4g}; "
             "check that the projection surface is that of the patch, or shorten the layers",
-            names(crease.patches), to, too_far.size(), sweep_.cap_vertex[v], fmt::join(places[v], ", "),
-            moved[worst], room[v]);
+            names(crease.patches), to, too_far.size(), sweep_.boundary.mesh_vertices()[v],
+            fmt::join(places[v], ", "), moved[worst], room[v]);
         throw GeometryError(message, std::move(too_far));
     }
 }

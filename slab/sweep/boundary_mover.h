@@ -17,8 +17,7 @@ namespace slabhull {
 template<int D>
 class BoundaryMover {
 public:
-    /// `sweep` gives the surface, its tracks and the cap's numbers of its vertices; all must outlive the
-    /// mover.
+    /// `sweep` gives the boundary and its first places; all must outlive the mover.
     BoundaryMover(const Sweep<D>& sweep, const PatchMotions<D>& motions, double motion_start,
                   const TrajectoryOptions& options);
 

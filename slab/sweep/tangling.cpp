@@ -26,9 +26,9 @@ constexpr std::size_t most_crossings = 1000;
 constexpr std::size_t most_partners = 8;
 
 template<int D>
-std::optional<GeometryError> fault_of(const Surface<D>& surface, double time) {
+std::optional<GeometryError> fault_of(const Boundary<D>& boundary, const Surface<D>& surface, double time) {
     try {
-        require_domain_boundary(surface, {fmt::format("moved boundary at t = {:.9g}", time), {}}, false);
+        require_domain_boundary(boundary, surface, {fmt::format("moved boundary at t = {:.9g}", time), {}});
         return std::nullopt;
     } catch (const GeometryError& error) {
         return error;
@@ -132,7 +132,7 @@ private:
     void halve() {
         const double middle = 0.5 * (good_ + bad_);
         Array<Point<D>> places = mover_.move(good_places_, good_, middle);
-        if (auto fault = fault_of<D>(at(places), middle)) {
+        if (auto fault = fault_of<D>(sweep_.boundary, at(places), middle)) {
             fault_ = std::move(*fault);
             bad_ = middle;
             bad_places_ = std::move(places);
@@ -142,11 +142,7 @@ private:
         }
     }
 
-    Surface<D> at(const Array<Point<D>>& places) const {
-        Surface<D> surface = sweep_.surface;
-        surface.points = places;
-        return surface;
-    }
+    Surface<D> at(const Array<Point<D>>& places) const { return sweep_.boundary.at(places); }
 
     const Sweep<D>& sweep_;
     BoundaryMover<D>& mover_;
@@ -163,7 +159,7 @@ template<int D>
 void require_embedded_levels(const Sweep<D>& sweep, const PatchMotions<D>& motions, double motion_start,
                              const TrajectoryOptions& options) {
     for (std::size_t level = 1; level < sweep.times.size(); ++level) {
-        if (auto fault = fault_of<D>(sweep.at(level), sweep.times[level])) {
+        if (auto fault = fault_of<D>(sweep.boundary, sweep.at(level), sweep.times[level])) {
             BoundaryMover<D> mover{sweep, motions, motion_start, options};
             Bisection<D>{sweep, mover, level, std::move(*fault)}.run();
         }

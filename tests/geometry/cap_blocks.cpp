@@ -43,7 +43,7 @@ CapOptions in_blocks(int blocks, double largest = std::numeric_limits<double>::i
 
 DomainBlocks cut(const Surface<3>& surface, const Grading& grading, int count) {
     const SizeField<3> size = size_of(surface, grading);
-    return cut_domain(surface, size, grading.growth, sample_load(surface, size), count);
+    return cut_domain(Boundary<3>{surface}, surface, size, grading.growth, sample_load(surface, size), count);
 }
 
 double smallest_angle(const Array<Point<3>>& points, const Facet<3>& facet) {
@@ -75,7 +75,7 @@ TEST_CASE("the load of a graded domain is the integral of h^-3", "[blocks]") {
 
 TEST_CASE("a surface is divided along a grid line, also when the plane is between two", "[blocks]") {
     const Surface<3> surface = box_surface<3>({0, 0, 0}, {8, 8, 8}, 1, {1, "box"});
-    const Adjacency<2> adjacency = build_adjacency<2>(surface.facets, surface.points.size());
+    const Boundary<3> boundary{surface};
     const std::vector<double> spacing(surface.points.size(), 1.0);
     for (const double offset : {4.0, 4.2, 4.4, 4.6, 5.1}) {
         INFO(offset);
@@ -83,8 +83,8 @@ TEST_CASE("a surface is divided along a grid line, also when the plane is betwee
         for (const Point<3>& p : surface.points) {
             height.push_back(p[0] - offset);
         }
-        const auto above = divide_surface(surface, adjacency, height, spacing);
-        const Array<Facet<2>> rim = edges_between(surface, adjacency, above);
+        const auto above = divide_surface(surface, boundary.neighbors(), height, spacing);
+        const Array<Facet<2>> rim = edges_between(surface, boundary.neighbors(), above);
         CHECK(rim.size() == 32);
         for (const Facet<2>& edge : rim) {
             CHECK(std::abs(height[edge[0]]) < 0.7);

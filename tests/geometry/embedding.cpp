@@ -499,6 +499,7 @@ TEST_CASE("points and facets that cannot be are named", "[boundary][bad-input]")
         s = cube_grid(1);
         s.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
         s.facets = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+        s.patch.resize(4);
         CHECK(complaint(s) == "");
         s.points[3][2] = 0;
         CHECK_THAT(complaint(s), Contains("cross") || Contains("no area"));

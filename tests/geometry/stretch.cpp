@@ -134,7 +134,7 @@ std::vector<Point<D>> stretched(const Surface<D>& surface, const std::set<PatchN
             x[v] = move(surface.points[v]);
         }
     }
-    harmonic_stretch<D>(surface, patches)->follow(x);
+    harmonic_stretch(Boundary<D>{surface}, patches)->follow(x);
     return x;
 }
 
@@ -322,7 +322,7 @@ TEST_CASE("where nothing moves the vertices are put back bit for bit") {
 
 TEST_CASE("only vertices that follow are moved, and only those that lead decide: not the way there") {
     const Surface<3> cube = cube_with_obtuse_top(5);
-    const auto stretch = harmonic_stretch<3>(cube, {top});
+    const auto stretch = harmonic_stretch(Boundary<3>{cube}, {top});
     const std::vector<bool> follows = following(cube, {top});
     std::vector<Point<3>> x(cube.points.begin(), cube.points.end());
     const auto lead = [&](double factor) {
@@ -419,11 +419,11 @@ TEST_CASE("needles do not keep the flips from ending, and lines stay lines") {
 TEST_CASE("a patch that no other leads is refused by name") {
     Surface<3> both = specimens::together(specimens::box({-4, -4, -4}, {4, 4, 4}, 3),
                                           specimens::turned_inside_out(specimens::ball({0, 0, 0}, 1, 3)));
-    CHECK_NOTHROW(harmonic_stretch<3>(both, {}));
-    CHECK_NOTHROW(harmonic_stretch<3>(both, {5}));
+    CHECK_NOTHROW(harmonic_stretch(Boundary<3>{both}, {}));
+    CHECK_NOTHROW(harmonic_stretch(Boundary<3>{both}, {5}));
     for (const auto& patches : {std::set<PatchNumber>{2}, {1, 2}}) {
         try {
-            harmonic_stretch<3>(both, patches);
+            harmonic_stretch(Boundary<3>{both}, patches);
             FAIL("accepted");
         } catch (const UsageError& error) {
             REQUIRE(error.entities.size() == 1);
@@ -434,6 +434,6 @@ TEST_CASE("a patch that no other leads is refused by name") {
     // One part of a patch led, another not.
     std::fill(both.patch.begin(), both.patch.end(), 1);
     both.patch[0] = 3;
-    CHECK_THROWS_AS(harmonic_stretch<3>(both, {1}), UsageError);
-    CHECK_THROWS_AS(harmonic_stretch<2>(specimens::disc({0, 0}, 1, 9), {3}), UsageError);
+    CHECK_THROWS_AS(harmonic_stretch(Boundary<3>{both}, {1}), UsageError);
+    CHECK_THROWS_AS(harmonic_stretch(Boundary<2>{specimens::disc({0, 0}, 1, 9)}, {3}), UsageError);
 }

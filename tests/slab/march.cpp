@@ -28,7 +28,7 @@ March<D> coarse_march() {
     StageClock clock;
     IdCounter ids;
     MarchState<D> state = march_from<D>(initial_cap<D>(the_case, ids, {}, clock), the_case.start, ids);
-    SlabSettings<D> settings = settings_of<D>(the_case, state.start_boundary());
+    SlabSettings<D> settings = settings_of<D>(the_case, state.boundary);
     return {std::move(state), std::move(settings)};
 }
 
@@ -102,7 +102,7 @@ TEMPLATE_TEST_CASE_SIG("a corrected motion gives the same ids to the same vertic
     const Slab<D> corrected = march.propose({0, 0.125, 0.25});
     const std::size_t side_end = predicted.hull.points.size() - predicted.terminating().points.size();
     REQUIRE(side_end == corrected.hull.points.size() - corrected.terminating().points.size());
-    const std::size_t boundary = march.state().start_places.size();
+    const std::size_t boundary = march.state().boundary.vertex_count();
     const std::size_t kept = side_end + boundary;
     CHECK(std::equal(predicted.hull.vertex_ids.begin(),
                      predicted.hull.vertex_ids.begin() + static_cast<std::ptrdiff_t>(kept),

@@ -31,7 +31,7 @@ March<D> march(const Case& the_case, const std::vector<double>& slab_times) {
     const auto settings = settings_of<D>(the_case, boundary_of(result.caps[0]));
     for (std::size_t i = 0; i + 1 < slab_times.size(); ++i) {
         const double middle = (slab_times[i] + slab_times[i + 1]) / 2;
-        Slab<D> slab = build_slab<D>(result.caps.back(), static_cast<int>(i),
+        Slab<D> slab = build_slab<D>(result.caps.back(), boundary_of(result.caps.back()), static_cast<int>(i),
                                      {slab_times[i], middle, slab_times[i + 1]}, settings, result.ids, clock);
         result.ids = slab.next_ids;
         result.caps.push_back(slab.terminating());
@@ -175,7 +175,7 @@ TEST_CASE("a motion that drives the body through the wall is refused with the ti
 TEST_CASE("a patch that the domain has not is refused with those that it has", "[slab]") {
     Case the_case = coarse("circle");
     the_case.motions["rotor"] = the_case.motions.empty() ? MotionSpec{} : the_case.motions.begin()->second;
-    const Surface<2> boundary{{}, {}, {}, {{1, "body"}, {2, "walls"}}};
+    const Boundary<2> boundary{{{}, {}, {}, {{1, "body"}, {2, "walls"}}}};
     CHECK_THROWS_AS(settings_of<2>(the_case, boundary), UsageError);
     CHECK_THROWS_WITH(settings_of<2>(the_case, boundary),
                       Catch::Contains("rotor") && Catch::Contains("walls"));

@@ -177,8 +177,8 @@ Hull<D> built(const Case& the_case) {
     IdCounter ids;
     StageClock clock;
     const auto initial = initial_cap<D>(the_case, ids, {}, clock);
-    return build_slab<D>(initial, 0, the_case.level_times(0), settings_of<D>(the_case, boundary_of(initial)),
-                         ids, clock)
+    return build_slab<D>(initial, boundary_of(initial), 0, the_case.level_times(0),
+                         settings_of<D>(the_case, boundary_of(initial)), ids, clock)
         .hull;
 }
 
@@ -405,7 +405,7 @@ TEMPLATE_TEST_CASE_SIG("vertices know the tracks that they are on, and those tha
     const Hull<D> hull = stitched<D>(parts, all_sides<D>().front());
     const Section<D> section = slice_hull<D>(columns_of(hull), 1.23);
     std::multiset<TrackId> tracks(section.track_ids.begin(), section.track_ids.end());
-    CHECK(tracks.count(no_track) == section.track_ids.size() - parts.sweep.surface.points.size());
+    CHECK(tracks.count(no_track) == section.track_ids.size() - parts.sweep.boundary.vertex_count());
     tracks.erase(no_track);
     CHECK(std::set<TrackId>(tracks.begin(), tracks.end()).size() == tracks.size());
     CHECK(

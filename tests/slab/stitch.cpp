@@ -189,7 +189,7 @@ TEMPLATE_TEST_CASE_SIG("the number of threads changes no byte", "[stitch]", ((in
 
 TEST_CASE("diagonals by id start at the smaller track, in every layer", "[stitch]") {
     const auto parts = slab_over<3>(specimens::box_with_body<3>(), {0, 0.25, 0.5}, bending_flow<3>());
-    const std::size_t facets = parts.sweep.surface.facets.size();
+    const std::size_t facets = parts.sweep.boundary.facet_count();
     const auto check = [&](Split split, Diagonals kind, std::size_t in_layer) {
         const auto diagonals = diagonals_of(stitched(parts, {split, kind}));
         CHECK(diagonals.size() == 2 * in_layer);
@@ -224,9 +224,13 @@ TEST_CASE("each diagonal by shape has the better angles beside it, and the small
     const auto parts =
         slab_over<3>(specimens::full_box<3>(2), {0, 0.25, 0.5}, GENERATE_COPY(shear, MotionPointer<3>{}));
     auto turned = parts; // with tracks in the other order, diagonals by id are the other ones
-    for (TrackId& track : turned.sweep.tracks) {
+    Array<TrackId> tracks(parts.sweep.boundary.tracks().begin(), parts.sweep.boundary.tracks().end());
+    for (TrackId& track : tracks) {
         track = -track;
     }
+    turned.sweep.boundary = Boundary<3>{parts.sweep.boundary.start_surface(), std::move(tracks)}.bounding(
+        parts.initial.vertex_ids,
+        {parts.sweep.boundary.mesh_vertices().begin(), parts.sweep.boundary.mesh_vertices().end()});
     for (const Split split : {Split::B, Split::D}) {
         const auto by_shape = quads_of(stitched(parts, {split, Diagonals::shape}));
         const auto by_id = quads_of(stitched(parts, {split, Diagonals::smallest_id}));
@@ -287,9 +291,10 @@ TEST_CASE("a cap that does not fit its boundary is refused", "[stitch]") {
         CHECK_THROWS_WITH(stitched(wrong, side), Catch::Contains("cell 3"));
     }
     SECTION("a swept boundary with a hole") {
-        auto wrong = parts;
-        wrong.sweep.surface.facets.pop_back();
-        CHECK_THROWS_WITH(stitched(wrong, side), Catch::Contains("not a closed manifold"));
+        Surface<3> open = parts.sweep.boundary.start_surface();
+        open.facets.pop_back();
+        open.patch.pop_back();
+        CHECK_THROWS_WITH(Boundary<3>{open}, Catch::Contains("is in 1 triangle"));
     }
 }
 
@@ -305,7 +310,8 @@ TEST_CASE(
         the_case.split = side.split;
         the_case.diagonals = side.diagonals;
         const auto settings = settings_of<3>(the_case, boundary_of(initial));
-        const auto slab = build_slab<3>(initial, 0, the_case.level_times(0), settings, ids, clock);
+        const auto slab =
+            build_slab<3>(initial, boundary_of(initial), 0, the_case.level_times(0), settings, ids, clock);
         check_sound(slab.hull, {1, 1, 1, 1});
     }
 }

@@ -47,8 +47,8 @@ CapMesh<D> meshed_alike(const SpatialMesh<D>& cap, const Sweep<D>& sweep) {
     CapMesh<D> mesh;
     std::vector<Index> number(cap.points.size(), no_index);
     mesh.points = sweep.positions.back();
-    for (Index v = 0; v < sweep.cap_vertex.size(); ++v) {
-        number[sweep.cap_vertex[v]] = v;
+    for (Index v = 0; v < sweep.boundary.vertex_count(); ++v) {
+        number[sweep.boundary.mesh_vertices()[v]] = v;
     }
     for (std::size_t v = 0; v < number.size(); ++v) {
         if (number[v] == no_index) {
@@ -85,9 +85,9 @@ SlabParts<D> next_slab(SpatialMesh<D> initial, std::vector<double> times, const 
         motions[1].motion = motion;
     }
     parts.initial = std::move(initial);
-    parts.sweep = sweep_boundary<D>(parts.initial, motions, times.front(), times, TrajectoryOptions{});
-    parts.terminating =
-        terminating_cap<D>(parts.initial, parts.sweep, meshed_alike<D>(parts.initial, parts.sweep), ids);
+    parts.sweep = sweep_boundary<D>(boundary_of(parts.initial), parts.initial, motions, times.front(), times,
+                                    TrajectoryOptions{});
+    parts.terminating = terminating_cap<D>(parts.sweep, meshed_alike<D>(parts.initial, parts.sweep), ids);
     return parts;
 }
 

@@ -36,7 +36,8 @@ ErrorRow errors_of(const Case& the_case, const SpatialMesh<D>& initial, const Id
     StageClock clock;
     const auto settings = settings_of<D>(the_case, boundary_of(initial));
     const Slab<D> slab =
-        build_slab<D>(initial, 0, the_case.level_times(the_case.start, the_case.end), settings, ids, clock);
+        build_slab<D>(initial, boundary_of(initial), 0, the_case.level_times(the_case.start, the_case.end),
+                      settings, ids, clock);
     const HullReport report = check_hull<D>(columns_of(slab.hull));
     if (!report.clean()) {
         throw std::runtime_error("the hull has defects");

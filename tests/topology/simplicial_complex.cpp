@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/topology/simplicial_complex.h"
 
+#include "slabhull/core/error.h"
+
 #include "slabhull/topology/adjacency.h"
 #include "topology/specimens.h"
 
@@ -23,10 +25,6 @@ template<class Mesh, class Argument>
 concept has_star_of = requires(const Mesh& mesh, Argument argument) {
     mesh.star(argument);
 };
-template<class Values, class Argument>
-concept indexed_by = requires(Values& values, Argument argument) {
-    values[argument];
-};
 template<class Mesh>
 concept seen_by_view = requires(Mesh mesh) {
     view_of(std::forward<Mesh>(mesh));
@@ -36,9 +34,6 @@ static_assert(has_star_of<SimplicialComplex<3>, VertexId>);
 static_assert(!has_star_of<SimplicialComplex<3>, CellId>);
 static_assert(!has_star_of<SimplicialComplex<3>, Index>);
 static_assert(!has_star_of<SimplicialComplex<3>, HalfFacetId<3>>);
-static_assert(indexed_by<Attribute<double, VertexId>, VertexId>);
-static_assert(!indexed_by<Attribute<double, VertexId>, CellId>);
-static_assert(!indexed_by<Attribute<double, VertexId>, Index>);
 static_assert(!std::equality_comparable_with<HalfFacetId<2>, HalfFacetId<3>>);
 static_assert(!std::equality_comparable_with<VertexId, CellId>);
 static_assert(sizeof(HalfFacetId<3>) == 8);
@@ -439,51 +434,6 @@ TEST_CASE("chains and loops of a curve are followed in the sense of its edges") 
     REQUIRE(found.size() == 2);
     CHECK(found[0] == std::vector<VertexId>{VertexId{0}, VertexId{1}, VertexId{2}, VertexId{3}});
     CHECK(found[1] == std::vector<VertexId>{VertexId{4}, VertexId{5}, VertexId{6}});
-}
-
-TEST_CASE("a part takes its share of the attributes along") {
-    auto mesh = opened(specimens::torus<3>(3));
-    auto& height = mesh.vertex_attributes().add<double>("height");
-    auto& name = mesh.cell_attributes().add<std::string>("name", "none");
-    for (const VertexId v : mesh.vertices()) {
-        height[v] = 0.5 * v.slot();
-    }
-    const std::vector<CellId> chosen = mesh.star(VertexId{13});
-    name[chosen[2]] = "third";
-    const auto part = part_of<3>(mesh, chosen);
-    CHECK(part.complex.cell_count() == chosen.size());
-    CHECK(part.complex.vertex_count() == 15); // the link of a vertex of the 3-torus has 14
-    const auto* heights = part.complex.vertex_attributes().find<double>("height");
-    const auto* names = part.complex.cell_attributes().find<std::string>("name");
-    REQUIRE(heights != nullptr);
-    REQUIRE(names != nullptr);
-    for (const VertexId v : part.complex.vertices()) {
-        CHECK((*heights)[v] == 0.5 * part.vertices[v.slot()].slot());
-    }
-    CHECK((*names)[CellId{2}] == "third");
-    CHECK((*names)[CellId{3}] == "none");
-    const auto skin = boundary_of(part.complex);
-    CHECK(skin.complex.vertex_attributes().find<double>("height")->size() == 14);
-}
-
-TEST_CASE("attributes are found by name and type, and counted like their elements") {
-    auto mesh = opened(specimens::sphere<2>());
-    auto& values = mesh.vertex_attributes();
-    auto& age = values.add<int>("age", 7);
-    CHECK(age.size() == mesh.vertex_count());
-    CHECK(values.find<int>("age") == &age);
-    CHECK(values.find<double>("age") == nullptr);
-    CHECK(values.find<int>("weight") == nullptr);
-    CHECK_THROWS_AS(values.add<double>("age"), UsageError);
-    values.add<double>("weight");
-    CHECK(values.find<int>("age") == &age);
-    CHECK(values.names() == std::vector<std::string>{"age", "weight"});
-    CHECK(values.remove("age"));
-    CHECK_FALSE(values.remove("age"));
-    const SimplicialComplex<2> moved = std::move(mesh);
-    CHECK(&moved.vertex_attributes() == &values);
-    CHECK(moved.vertex_attributes().find<double>("weight")->size() == 4);
-    CHECK(moved.star(VertexId{0}).size() == 3);
 }
 
 // --- views

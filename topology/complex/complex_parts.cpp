@@ -74,12 +74,9 @@ PartOfComplex<D, CellId> part_of(const SimplicialComplex<D>& whole, std::span<co
         cells.push_back(whole.cell_array()[cell.slot()]);
     }
     std::vector<VertexId> used = renumber<D>(cells, whole.vertex_count());
-    PartOfComplex<D, CellId> part{SimplicialComplex<D>::from_soup(std::move(cells), used.size()),
-                                  std::move(used),
-                                  {chosen.begin(), chosen.end()}};
-    part.complex.vertex_attributes().take_share(whole.vertex_attributes(), part.vertices);
-    part.complex.cell_attributes().take_share(whole.cell_attributes(), chosen);
-    return part;
+    return {SimplicialComplex<D>::from_soup(std::move(cells), used.size()),
+            std::move(used),
+            {chosen.begin(), chosen.end()}};
 }
 
 template<int D>
@@ -94,11 +91,8 @@ PartOfComplex<D - 1, HalfFacetId<D>> boundary_of(const SimplicialComplex<D>& who
     }
     std::vector<VertexId> used = renumber<D - 1>(cells, whole.vertex_count());
     Array<Neighbors<D - 1>> neighbors = boundary_adjacency<D>(whole, facets);
-    PartOfComplex<D - 1, HalfFacetId<D>> part{
-        SimplicialComplex<D - 1>::adopt(std::move(cells), std::move(neighbors), used.size()), std::move(used),
-        std::move(facets)};
-    part.complex.vertex_attributes().take_share(whole.vertex_attributes(), part.vertices);
-    return part;
+    return {SimplicialComplex<D - 1>::adopt(std::move(cells), std::move(neighbors), used.size()),
+            std::move(used), std::move(facets)};
 }
 
 std::vector<std::vector<VertexId>> loops(const SimplicialComplex<1>& curve) {

@@ -97,9 +97,7 @@ std::vector<Turn> turns_about(const SimplicialComplex<3>& complex, VertexId a, V
 template<int D>
 SimplicialComplex<D>::SimplicialComplex(std::span<const Simplex<D>> cells,
                                         std::span<const Neighbors<D>> neighbors, std::size_t vertex_count)
-    : cells_{cells}, neighbors_{neighbors}, vertex_attributes_{std::make_unique<AttributeSet<VertexId>>(
-                                                vertex_count)},
-      cell_attributes_{std::make_unique<AttributeSet<CellId>>(cells.size())} {
+    : cells_{cells}, neighbors_{neighbors} {
     cell_of_.assign(vertex_count, no_index);
     for (std::size_t c = cells.size(); c-- > 0;) {
         for (const Index v : cells[c]) {

@@ -23,15 +23,15 @@ CapOptions cap_options(const Case& the_case);
 /// boundary's vertices have the tracks 0, 1 .. in order. Throws UsageError for a motion or projection of a
 /// patch that does not exist, UsageError and InputError for what is wrong with the files of motions.
 template<int D>
-CaseSettings<D> case_settings(const Case& the_case, const Surface<D>& start);
+CaseSettings<D> case_settings(const Case& the_case, const Boundary<D>& boundary);
 
 /// The same without the report about files.
 template<int D>
-SlabSettings<D> settings_of(const Case& the_case, const Surface<D>& start) {
-    return case_settings<D>(the_case, start).slab;
+SlabSettings<D> settings_of(const Case& the_case, const Boundary<D>& boundary) {
+    return case_settings<D>(the_case, boundary).slab;
 }
 
-extern template CaseSettings<2> case_settings<2>(const Case&, const Surface<2>&);
-extern template CaseSettings<3> case_settings<3>(const Case&, const Surface<3>&);
+extern template CaseSettings<2> case_settings<2>(const Case&, const Boundary<2>&);
+extern template CaseSettings<3> case_settings<3>(const Case&, const Boundary<3>&);
 
 } // namespace slabhull

@@ -5,6 +5,7 @@
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
 #include "slabhull/geometry/size_field.h"
+#include "slabhull/topology/boundary.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 namespace slabhull {
@@ -59,6 +60,16 @@ template<>
 CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options);
 template<>
 CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options);
+
+/// The same for a boundary that lies as in `surface` and has been found sound there: see
+/// require_domain_boundary(), which is not called again.
+template<int D>
+CapMesh<D> mesh_cap(const Boundary<D>& boundary, const Surface<D>& surface, const CapOptions& options);
+
+template<>
+CapMesh<2> mesh_cap<2>(const Boundary<2>& boundary, const Surface<2>& surface, const CapOptions& options);
+template<>
+CapMesh<3> mesh_cap<3>(const Boundary<3>& boundary, const Surface<3>& surface, const CapOptions& options);
 
 /// Proves that a cap mesh fills the inside of a surface: its points begin with the surface's, bit for bit;
 /// its boundary facets are the surface's, orientation included; every cell is positively oriented (exactly)

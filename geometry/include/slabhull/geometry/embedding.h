@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slabhull/core/point.h"
+#include "slabhull/topology/boundary.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <cstddef>
@@ -45,9 +46,17 @@ struct FacetNaming {
 template<int D>
 void require_domain_boundary(const Surface<D>& surface, const FacetNaming& naming, bool is_input);
 
+/// The same for a boundary that lies as in `surface`: connectivity is known, so only places are looked at.
+/// Throws GeometryError. Cost: that of find_crossings().
+template<int D>
+void require_domain_boundary(const Boundary<D>& boundary, const Surface<D>& surface,
+                             const FacetNaming& naming = {});
+
 extern template std::vector<Crossing<2>> find_crossings<2>(const Surface<2>&, std::size_t);
 extern template std::vector<Crossing<3>> find_crossings<3>(const Surface<3>&, std::size_t);
 extern template void require_domain_boundary<2>(const Surface<2>&, const FacetNaming&, bool);
 extern template void require_domain_boundary<3>(const Surface<3>&, const FacetNaming&, bool);
+extern template void require_domain_boundary<2>(const Boundary<2>&, const Surface<2>&, const FacetNaming&);
+extern template void require_domain_boundary<3>(const Boundary<3>&, const Surface<3>&, const FacetNaming&);
 
 } // namespace slabhull

@@ -3,7 +3,7 @@
 
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
-#include "slabhull/topology/spatial_mesh.h"
+#include "slabhull/topology/boundary.h"
 
 #include <memory>
 #include <set>
@@ -13,15 +13,15 @@ namespace slabhull {
 
 /// Patches whose vertices follow those of their neighbours, as the wall of a cylinder follows a piston: the
 /// displacement since the start is interpolated harmonically along the surface (cotangent weights of the
-/// surface at the start; D = 2: inverse lengths) from the vertices that they share with other patches. So
-/// where a vertex is depends on where the neighbours are, not on the way there.
+/// boundary where it was opened; D = 2: inverse lengths) from the vertices that they share with other
+/// patches. So where a vertex is depends on where the neighbours are, not on the way there.
 template<int D>
 class Stretch {
 public:
     virtual ~Stretch() = default;
 
     /// Puts the inner vertices of the patches where they belong, given those of all others.
-    /// x: positions of all vertices of the surface that it was made from, in its order.
+    /// x: positions of all vertices of the boundary that it was made for, in its order.
     virtual void follow(std::span<Point<D>> x) const = 0;
 };
 
@@ -34,9 +34,9 @@ using StretchPointer = std::shared_ptr<const Stretch<D>>;
 /// 0.25 s. Throws UsageError naming a patch of which a connected part has no vertex in common with any patch
 /// outside `patches`: nothing could lead it.
 template<int D>
-StretchPointer<D> harmonic_stretch(const Surface<D>& start, const std::set<PatchNumber>& patches);
+StretchPointer<D> harmonic_stretch(const Boundary<D>& boundary, const std::set<PatchNumber>& patches);
 
-extern template StretchPointer<2> harmonic_stretch<2>(const Surface<2>&, const std::set<PatchNumber>&);
-extern template StretchPointer<3> harmonic_stretch<3>(const Surface<3>&, const std::set<PatchNumber>&);
+extern template StretchPointer<2> harmonic_stretch<2>(const Boundary<2>&, const std::set<PatchNumber>&);
+extern template StretchPointer<3> harmonic_stretch<3>(const Boundary<3>&, const std::set<PatchNumber>&);
 
 } // namespace slabhull

@@ -14,16 +14,13 @@ struct MarchState {
     double time = 0;    ///< that it is at
     int slab = 0;       ///< number of the next slab
     IdCounter ids;
-    /// The boundary's vertices when the motion started, in the order of their tracks, which is that of the
-    /// caps' vertices. Series of displacements and stretching patches refer to it.
-    Array<Point<D>> start_places;
-
-    /// The boundary as it was when the motion started.
-    Surface<D> start_boundary() const;
+    /// The boundary of all caps of the march, opened where the motion starts. Series of displacements and
+    /// stretching patches refer to its places there. At present it bounds `cap`.
+    Boundary<D> boundary;
 };
 
 /// A march that begins: `cap` at time `time`, with tracks from 0 in the order of its boundary's vertices, as
-/// initial_cap() gives it.
+/// initial_cap() gives it. Throws GeometryError when the cap's boundary facets are no closed manifold.
 template<int D>
 MarchState<D> march_from(SpatialMesh<D> cap, double time, const IdCounter& ids);
 
@@ -63,8 +60,6 @@ private:
     PersistentId first_id_;
 };
 
-extern template struct MarchState<2>;
-extern template struct MarchState<3>;
 extern template MarchState<2> march_from<2>(SpatialMesh<2>, double, const IdCounter&);
 extern template MarchState<3> march_from<3>(SpatialMesh<3>, double, const IdCounter&);
 extern template class March<2>;

@@ -44,14 +44,14 @@ struct Slab {
     SpatialMesh<D> terminating() const { return terminating_cap_of<D>(hull, terminating_facets); }
 };
 
-/// Builds slab `number` over the levels `times` on the initial cap: the seven steps of the method. The hull
-/// is not checked as a whole (check_hull() does); the boundary is, on every level, and so is the terminating
-/// cap. New ids are counted from `ids`: first the side's, then those of the terminating boundary, then those
-/// inside the cap. Throws GeometryError naming what and where: motions that disagree, a cap that cannot be
-/// meshed; TangledBoundary for a boundary that crosses itself or leaves its box. An initial cap that is given
-/// up is still there when an error is thrown.
+/// Builds slab `number` over the levels `times` on the initial cap, which `boundary` bounds: the seven steps
+/// of the method. The hull is not checked as a whole (check_hull() does); the boundary is, on every level,
+/// and so is the terminating cap. New ids are counted from `ids`: first the side's, then those of the
+/// terminating boundary, then those inside the cap. Throws GeometryError naming what and where: motions that
+/// disagree, a cap that cannot be meshed; TangledBoundary for a boundary that crosses itself or leaves its
+/// box. An initial cap that is given up is still there when an error is thrown.
 template<int D>
-Slab<D> build_slab(CapToStitch<D> initial, int number, std::vector<double> times,
+Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock);
 
 } // namespace slabhull

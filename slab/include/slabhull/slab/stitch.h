@@ -19,11 +19,10 @@ struct IdCounter {
     }
 };
 
-/// A terminating cap as a spatial mesh: new ids for its points, the tracks and patches of the initial one.
+/// A terminating cap as a spatial mesh: new ids for its points, the tracks and patches of the boundary.
 /// `mesh` has the sweep's vertices first, at their last positions.
 template<int D>
-SpatialMesh<D> terminating_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, CapMesh<D>&& mesh,
-                               IdCounter& ids);
+SpatialMesh<D> terminating_cap(const Sweep<D>& sweep, CapMesh<D>&& mesh, IdCounter& ids);
 
 /// How the side is split into simplices.
 struct SideOptions {

@@ -8,6 +8,7 @@
 #include "slabhull/geometry/projection.h"
 #include "slabhull/geometry/stretch.h"
 #include "slabhull/geometry/trajectory.h"
+#include "slabhull/topology/boundary.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <map>
@@ -33,11 +34,9 @@ using PatchMotions = std::map<PatchNumber, MovingPatch<D>>;
 /// The boundary of the domain on every level of a slab: step 3 of the method.
 template<int D>
 struct Sweep {
-    Surface<D> surface;                     ///< at the first level; its vertices are the swept ones
-    Array<Index> cap_vertex;                ///< vertex of the initial cap that each of them is
-    Array<TrackId> tracks;                  ///< of each of them
+    Boundary<D> boundary;                   ///< what is swept; it bounds the initial cap
     std::vector<double> times;              ///< of the levels, ascending
-    std::vector<Array<Point<D>>> positions; ///< by level, then by vertex; the first is surface.points
+    std::vector<Array<Point<D>>> positions; ///< by level, then by vertex of the boundary
     std::map<PatchNumber, ProjectionReport>
         projected; ///< how far projection moved each patch, over all levels
 
@@ -46,23 +45,14 @@ struct Sweep {
     Surface<D> at(std::size_t level) const;
 };
 
-/// The boundary of a cap as a surface of its own. Vertices in the order of the cap's.
-/// `cap_vertex` receives the cap's vertex for each.
+/// Sweeps `boundary` from its places in `cap`, which it bounds, through the levels `times`. `motion_start` is
+/// the time that projection surfaces are given at: they are placed by the motion from then to each level. A
+/// vertex shared by patches goes with all their motions, which must agree there, and is put on all their
+/// surfaces. Throws GeometryError naming the patches and the vertices where motions disagree, and the
+/// vertices that projection would move by more than half of their shortest edge.
 template<int D>
-Surface<D> boundary_of(const SpatialMesh<D>& cap, Array<Index>& cap_vertex);
-template<int D>
-Surface<D> boundary_of(const SpatialMesh<D>& cap) {
-    Array<Index> cap_vertex;
-    return boundary_of(cap, cap_vertex);
-}
-
-/// Sweeps the boundary of `cap` through the levels `times`. `motion_start` is the time that projection
-/// surfaces are given at: they are placed by the motion from then to each level. A vertex shared by patches
-/// goes with all their motions, which must agree there, and is put on all their surfaces. Throws
-/// GeometryError naming the patches and the vertices where motions disagree, and the vertices that projection
-/// would move by more than half of their shortest edge.
-template<int D>
-Sweep<D> sweep_boundary(const SpatialMesh<D>& cap, const PatchMotions<D>& motions, double motion_start,
-                        std::vector<double> times, const TrajectoryOptions& options);
+Sweep<D> sweep_boundary(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
+                        const PatchMotions<D>& motions, double motion_start, std::vector<double> times,
+                        const TrajectoryOptions& options);
 
 } // namespace slabhull

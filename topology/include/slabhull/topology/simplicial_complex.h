@@ -4,7 +4,6 @@
 #include "slabhull/core/array.h"
 #include "slabhull/core/index.h"
 #include "slabhull/core/point.h"
-#include "slabhull/topology/attribute.h"
 #include "slabhull/topology/hull.h"
 #include "slabhull/topology/id_range.h"
 #include "slabhull/topology/spatial_mesh.h"
@@ -142,12 +141,7 @@ public:
     /// star has link[0] again.
     std::vector<VertexId> link(VertexId a, VertexId b) const;
 
-    // --- attributes, and arrays for bulk work
-
-    AttributeSet<VertexId>& vertex_attributes() { return *vertex_attributes_; }
-    const AttributeSet<VertexId>& vertex_attributes() const { return *vertex_attributes_; }
-    AttributeSet<CellId>& cell_attributes() { return *cell_attributes_; }
-    const AttributeSet<CellId>& cell_attributes() const { return *cell_attributes_; }
+    // --- arrays for bulk work
 
     std::span<const Simplex<D>> cell_array() const { return cells_; }
     std::span<const Neighbors<D>> neighbor_array() const { return neighbors_; }
@@ -161,8 +155,6 @@ private:
     std::span<const Simplex<D>> cells_;
     std::span<const Neighbors<D>> neighbors_;
     Array<Index> cell_of_; ///< of each vertex the first cell
-    std::unique_ptr<AttributeSet<VertexId>> vertex_attributes_;
-    std::unique_ptr<AttributeSet<CellId>> cell_attributes_;
 };
 
 extern template class SimplicialComplex<1>;
@@ -191,12 +183,12 @@ struct PartOfComplex {
     std::vector<Origin> cells;      ///< of the whole, one for each cell of the part
 };
 
-/// The cells chosen, each once, with their own vertices and all attributes.
+/// The cells chosen, each once, with their own vertices.
 /// Throws GeometryError when they are no manifold, as cells that touch in a vertex only.
 template<int D>
 PartOfComplex<D, CellId> part_of(const SimplicialComplex<D>& whole, std::span<const CellId> chosen);
 
-/// The boundary (D = 2, 3), oriented as outward_facet() does, with its own vertices and their attributes. Its
+/// The boundary (D = 2, 3), oriented as outward_facet() does, with its own vertices. Its
 /// adjacency is found by turning about the ridges of the boundary, through the cells inside.
 template<int D>
 PartOfComplex<D - 1, HalfFacetId<D>> boundary_of(const SimplicialComplex<D>& whole);
