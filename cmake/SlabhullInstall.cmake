@@ -1,7 +1,6 @@
 # Installs the rooms and the files that let others say find_package(Slabhull).
 include(CMakePackageConfigHelpers)
 
-install(TARGETS slabhull_settings slabhull_warnings EXPORT SlabhullTargets)
 install(EXPORT SlabhullTargets NAMESPACE Slabhull:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Slabhull)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/SlabhullConfig.cmake.in
     ${PROJECT_BINARY_DIR}/SlabhullConfig.cmake

@@ -1,31 +1,35 @@
-# What every target of ours shares, and how a room is declared.
-add_library(slabhull_settings INTERFACE)
-add_library(Slabhull::settings ALIAS slabhull_settings)
-target_compile_features(slabhull_settings INTERFACE cxx_std_20)
+# How our own sources are compiled, and how a room is declared. Who links a room gets C++20 and include paths, no flag.
+add_library(slabhull_flags INTERFACE)
 # Same bytes from the same input: no contraction to fused multiply-add behind our back.
-target_compile_options(slabhull_settings INTERFACE -ffp-contract=off)
-
-add_library(slabhull_warnings INTERFACE)
-target_compile_options(slabhull_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    target_compile_options(slabhull_warnings INTERFACE -Wno-restrict) # gcc bug 105651: false alarms on std::string +
+target_compile_options(slabhull_flags INTERFACE -ffp-contract=off)
+target_compile_options(slabhull_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # A false alarm in unity builds: it takes every file but the one compiled for a header.
+    target_compile_options(slabhull_flags INTERFACE $<$<BOOL:${SLABHULL_UNITY}>:-Wno-subobject-linkage>)
+    if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+        target_compile_options(slabhull_flags INTERFACE -Wno-restrict) # gcc bug 105651: false alarms on std::string +
+    endif()
 endif()
 if(SLABHULL_WERROR)
-    target_compile_options(slabhull_warnings INTERFACE -Werror)
+    target_compile_options(slabhull_flags INTERFACE -Werror)
 endif()
 if(SLABHULL_SANITIZE)
-    target_compile_options(slabhull_settings INTERFACE -fsanitize=address,undefined
-        -fno-sanitize-recover=all -fno-omit-frame-pointer)
-    target_link_options(slabhull_settings INTERFACE -fsanitize=address,undefined)
+    set(sanitizers ${SLABHULL_SANITIZE})
+    if(NOT sanitizers STREQUAL "thread")
+        set(sanitizers address,undefined)
+    endif()
+    target_compile_options(slabhull_flags INTERFACE -fsanitize=${sanitizers} -fno-sanitize-recover=all
+        -fno-omit-frame-pointer)
+    target_link_options(slabhull_flags INTERFACE -fsanitize=${sanitizers})
 endif()
 if(SLABHULL_FUZZ)
     if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
         message(FATAL_ERROR "SLABHULL_FUZZ needs Clang, for libFuzzer: cmake --preset fuzz")
     endif()
     set(fuzz_sanitizers address,undefined,float-cast-overflow)
-    target_compile_options(slabhull_settings INTERFACE -fsanitize=fuzzer-no-link,${fuzz_sanitizers}
+    target_compile_options(slabhull_flags INTERFACE -fsanitize=fuzzer-no-link,${fuzz_sanitizers}
         -fno-sanitize-recover=all -fno-omit-frame-pointer)
-    target_link_options(slabhull_settings INTERFACE -fsanitize=${fuzz_sanitizers})
+    target_link_options(slabhull_flags INTERFACE -fsanitize=${fuzz_sanitizers})
 endif()
 
 # slabhull_room(<name> [NOT_INSTALLED] SOURCES <files> [USES <rooms>] [LINKS <private libraries>])
@@ -37,12 +41,14 @@ function(slabhull_room name)
     set(target slabhull_${name})
     add_library(${target} STATIC ${room_SOURCES})
     add_library(Slabhull::${name} ALIAS ${target})
-    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+        UNITY_BUILD ${SLABHULL_UNITY} UNITY_BUILD_BATCH_SIZE 8)
     target_include_directories(${target} PUBLIC
         $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
-    target_link_libraries(${target} PUBLIC slabhull_settings PRIVATE $<BUILD_INTERFACE:slabhull_warnings>)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:slabhull_flags>)
     foreach(used IN LISTS room_USES)
         target_link_libraries(${target} PUBLIC slabhull_${used})
     endforeach()

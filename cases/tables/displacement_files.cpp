@@ -212,7 +212,7 @@ public:
         match_.tolerance = spec.tolerance.value_or(1e-6 * extent_of<D>(vertices_.points));
     }
 
-    DisplacementFiles<D> run(const TimeSpan& span) {
+    DisplacementFiles<D> run(const TimeInterval& span) {
         if (!spec_.times.empty() && spec_.times.size() != files_.size()) {
             throw UsageError(fmt::format("{} times for {} files of displacements, from {} to {}",
                                          spec_.times.size(), files_.size(), files_.front().string(),
@@ -260,7 +260,7 @@ private:
         }
     }
 
-    void require_cover(const TimeSpan& span) const {
+    void require_cover(const TimeInterval& span) const {
         const double slack = 1e-9 * (span.end - span.start);
         if (rows_.times.front() > span.start + slack || rows_.times.back() < span.end - slack) {
             throw UsageError(
@@ -353,15 +353,15 @@ std::vector<std::filesystem::path> files_of_pattern(const std::filesystem::path&
 template<int D>
 DisplacementFiles<D> read_displacement_files(const DisplacementSpec& spec, const Surface<D>& start,
                                              std::span<const TrackId> tracks, PatchNumber patch,
-                                             const TimeSpan& span) {
+                                             const TimeInterval& span) {
     return SeriesReader<D>{spec, vertices_of<D>(start, tracks, patch)}.run(span);
 }
 
 template DisplacementFiles<2> read_displacement_files<2>(const DisplacementSpec&, const Surface<2>&,
                                                          std::span<const TrackId>, PatchNumber,
-                                                         const TimeSpan&);
+                                                         const TimeInterval&);
 template DisplacementFiles<3> read_displacement_files<3>(const DisplacementSpec&, const Surface<3>&,
                                                          std::span<const TrackId>, PatchNumber,
-                                                         const TimeSpan&);
+                                                         const TimeInterval&);
 
 } // namespace slabhull

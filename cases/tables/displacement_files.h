@@ -32,7 +32,7 @@ struct DisplacementFiles {
 template<int D>
 DisplacementFiles<D> read_displacement_files(const DisplacementSpec& spec, const Surface<D>& start,
                                              std::span<const TrackId> tracks, PatchNumber patch,
-                                             const TimeSpan& span);
+                                             const TimeInterval& span);
 
 /// The files whose names are that of the pattern with a number instead of its '*', by ascending number.
 /// Throws UsageError when there are none, or two with the same number.

@@ -93,7 +93,7 @@ public:
         }
     }
 
-    void require_cover(const std::vector<double>& times, const TimeSpan& span) const {
+    void require_cover(const std::vector<double>& times, const TimeInterval& span) const {
         const double slack = 1e-9 * (times.back() - times.front());
         if (times.front() > span.start + slack || times.back() < span.end - slack) {
             throw InputError(fmt::format("{}: the rows go from t = {} to {}, but the case from {} to {}; "
@@ -154,7 +154,7 @@ void read_turn(MotionColumns& columns, RigidTable<3>& table) {
 
 template<int D>
 MotionPointer<D> rotation_from_file(const std::filesystem::path& path, const Point<D>& axis,
-                                    const Point<D>& centre, const TimeSpan& span) {
+                                    const Point<D>& centre, const TimeInterval& span) {
     MotionColumns columns{path};
     AngleTable table;
     table.times = columns.numbers("time");
@@ -167,7 +167,7 @@ MotionPointer<D> rotation_from_file(const std::filesystem::path& path, const Poi
 
 template<int D>
 MotionPointer<D> rigid_table_from_file(const std::filesystem::path& path, const Point<D>& centre,
-                                       const TimeSpan& span) {
+                                       const TimeInterval& span) {
     MotionColumns columns{path};
     RigidTable<D> table;
     table.times = columns.numbers("time");
@@ -180,12 +180,12 @@ MotionPointer<D> rigid_table_from_file(const std::filesystem::path& path, const 
 }
 
 template MotionPointer<2> rotation_from_file<2>(const std::filesystem::path&, const Point<2>&,
-                                                const Point<2>&, const TimeSpan&);
+                                                const Point<2>&, const TimeInterval&);
 template MotionPointer<3> rotation_from_file<3>(const std::filesystem::path&, const Point<3>&,
-                                                const Point<3>&, const TimeSpan&);
+                                                const Point<3>&, const TimeInterval&);
 template MotionPointer<2> rigid_table_from_file<2>(const std::filesystem::path&, const Point<2>&,
-                                                   const TimeSpan&);
+                                                   const TimeInterval&);
 template MotionPointer<3> rigid_table_from_file<3>(const std::filesystem::path&, const Point<3>&,
-                                                   const TimeSpan&);
+                                                   const TimeInterval&);
 
 } // namespace slabhull

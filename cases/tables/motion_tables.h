@@ -8,7 +8,7 @@
 namespace slabhull {
 
 /// Times that a table must cover.
-struct TimeSpan {
+struct TimeInterval {
     double start;
     double end;
 };
@@ -20,12 +20,12 @@ struct TimeSpan {
 /// Columns time and angle.
 template<int D>
 MotionPointer<D> rotation_from_file(const std::filesystem::path& path, const Point<D>& axis,
-                                    const Point<D>& centre, const TimeSpan& span);
+                                    const Point<D>& centre, const TimeInterval& span);
 
 /// Columns time, x, y (, z), or none of these: no displacement; and the turn. D = 3: roll, pitch, yaw, or
 /// qw, qx, qy, qz, or none. D = 2: angle, or the columns of D = 3 with z, roll and pitch all zero, or none.
 template<int D>
 MotionPointer<D> rigid_table_from_file(const std::filesystem::path& path, const Point<D>& centre,
-                                       const TimeSpan& span);
+                                       const TimeInterval& span);
 
 } // namespace slabhull

@@ -14,7 +14,7 @@ namespace {
 
 /// Edge of a piece, in spacings.
 constexpr double piece_edge = 2;
-constexpr int max_depth = 40;
+constexpr int deepest_cube = 40;
 
 struct Cube {
     Point<3> centre{};
@@ -89,7 +89,7 @@ private:
             return;
         }
         const double spacing = size_(cube.centre);
-        if (2 * cube.half > piece_edge * spacing && depth < max_depth) {
+        if (2 * cube.half > piece_edge * spacing && depth < deepest_cube) {
             for (const Cube& part : cube.parts()) {
                 sample(part, !crossed, depth + 1, found);
             }

@@ -16,7 +16,7 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::size_t grain = 1 << 14;
+constexpr std::size_t indices_per_chunk = 1 << 14;
 
 /// A place along the curve, and who is there.
 using Keyed = std::pair<std::uint64_t, Index>;
@@ -97,7 +97,7 @@ Array<Index> inverse(const Array<Index>& order) {
 template<class T>
 void permute(Array<T>& values, const Array<Index>& order) {
     Array<T> result(values.size());
-    parallel_for(order.size(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(order.size(), indices_per_chunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             result[k] = values[order[k]];
         }
@@ -107,7 +107,7 @@ void permute(Array<T>& values, const Array<Index>& order) {
 
 template<std::size_t N>
 void renumber(Array<std::array<Index, N>>& lists, const Array<Index>& fresh) {
-    parallel_for(lists.size(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(lists.size(), indices_per_chunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             for (Index& entry : lists[k]) {
                 entry = entry == no_index ? no_index : fresh[entry];

@@ -84,7 +84,7 @@ void sort_out(std::vector<T>& values) {
     values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-constexpr std::size_t cells_per_piece = 1 << 14;
+constexpr std::size_t cells_per_ruling = 1 << 14;
 
 /// The patches of facets, without the cells that say so: a block of cells after the other, as there are many
 /// layers over one facet.
@@ -94,9 +94,9 @@ Rulings<D> patches_of_facets(const HullView<D>& view) {
     Rulings<D> all;
     for (std::size_t first = 0; first < view.cells().size(); first += block) {
         const std::size_t count = std::min(block, view.cells().size() - first);
-        std::vector<Rulings<D>> pieces((count + cells_per_piece - 1) / cells_per_piece);
-        parallel_for(count, cells_per_piece, [&](std::size_t begin, std::size_t end) {
-            Rulings<D>& piece = pieces[begin / cells_per_piece];
+        std::vector<Rulings<D>> pieces((count + cells_per_ruling - 1) / cells_per_ruling);
+        parallel_for(count, cells_per_ruling, [&](std::size_t begin, std::size_t end) {
+            Rulings<D>& piece = pieces[begin / cells_per_ruling];
             each_vote(
                 view, first + begin, first + end,
                 [&](const Vote<D>& vote) { // a prism has several, one after the other
@@ -208,14 +208,14 @@ private:
 /// Cells whose tracks are part of no facet of their patch, ascending.
 template<int D>
 std::vector<Vote<D>> partial_votes_without(const HullView<D>& view, const Rulings<D>& parts) {
-    std::vector<std::vector<Vote<D>>> pieces((view.cells().size() + cells_per_piece - 1) / cells_per_piece);
-    parallel_for(view.cells().size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::vector<Vote<D>>> pieces((view.cells().size() + cells_per_ruling - 1) / cells_per_ruling);
+    parallel_for(view.cells().size(), cells_per_ruling, [&](std::size_t begin, std::size_t end) {
         RulingFinder<D> finder{parts};
         each_vote(
             view, begin, end, [](const Vote<D>&) {},
             [&](const Vote<D>& vote) {
                 if (!finder.has({vote.tracks, vote.patch})) {
-                    pieces[begin / cells_per_piece].push_back(vote);
+                    pieces[begin / cells_per_ruling].push_back(vote);
                 }
             });
     });
@@ -236,7 +236,7 @@ template<int D>
 std::map<std::int64_t, PatchUse> count_side_patches(const HullView<D>& view) {
     std::map<std::int64_t, PatchUse> all;
     std::mutex lock;
-    parallel_for(view.cells().size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+    parallel_for(view.cells().size(), cells_per_ruling, [&](std::size_t begin, std::size_t end) {
         std::vector<std::int64_t> patch(end - begin);
         view.hull.patch.fill(begin, end, patch.data());
         std::map<std::int64_t, PatchUse> found;

@@ -139,7 +139,7 @@ DisplacementSpec csv_series(const scratch::Folder& folder, const Domain<D>& doma
 }
 
 template<int D>
-DisplacementFiles<D> read(const DisplacementSpec& spec, const Domain<D>& domain, TimeSpan span = {0, 1}) {
+DisplacementFiles<D> read(const DisplacementSpec& spec, const Domain<D>& domain, TimeInterval span = {0, 1}) {
     return read_displacement_files<D>(spec, domain.surface, domain.tracks, plate, span);
 }
 

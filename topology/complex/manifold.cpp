@@ -20,7 +20,7 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::size_t vertices_per_piece = 1 << 11;
+constexpr std::size_t vertices_per_walk = 1 << 11;
 constexpr std::size_t cells_per_piece = 1 << 16;
 
 /// What each piece of a parallel loop found, put together in the order of the pieces.
@@ -267,7 +267,7 @@ private:
         std::size_t link_vertices = 0; ///< over those of sound vertices
 
         explicit Survey(std::size_t vertex_count)
-            : unused(vertex_count, vertices_per_piece), suspects(vertex_count, vertices_per_piece) {}
+            : unused(vertex_count, vertices_per_walk), suspects(vertex_count, vertices_per_walk) {}
     };
 
     /// Stars that are walked whole have as many cells as there are corners of cells, together: only when they
@@ -300,7 +300,7 @@ private:
         constexpr std::size_t ahead = 4;
         std::atomic<std::size_t> cells{0};
         std::atomic<std::size_t> link_vertices{0};
-        parallel_for(last - first, vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+        parallel_for(last - first, vertices_per_walk, [&](std::size_t begin, std::size_t end) {
             auto stars = counters_.take([&] { return StarCounter<D>{cells_, adjacency_.neighbors}; });
             std::size_t in_stars = 0;
             std::size_t in_links = 0;
