@@ -82,8 +82,8 @@ void require_dimension(const ConvertCommand& command, const io::Format& format, 
     if (dimension == 0) {
         throw InputError{fmt::format("{}: there are no cells to write", command.in)};
     }
-    if (dimension < format.holds.least_dimension || dimension > format.holds.most_dimension) {
-        const bool surface_would_do = dimension == 3 && format.holds.most_dimension == 2;
+    if (dimension < format.features.min_dimension || dimension > format.features.max_dimension) {
+        const bool surface_would_do = dimension == 3 && format.features.max_dimension == 2;
         throw UsageError{fmt::format("{}: {} has no place for {}{}", command.out, format.title,
                                      simplices_called(dimension),
                                      surface_would_do ? "; --extract-boundary gives their surface" : "")};
@@ -93,11 +93,12 @@ void require_dimension(const ConvertCommand& command, const io::Format& format, 
 /// Formats of named groups, and those that keep no arrays, get groups. Where groups lose their names, only
 /// those of hulls, which tell the regions, become arrays.
 void settle_groups(const io::Format& format, io::Soup& soup) {
-    const bool arrays_stay = io::keeps(format, soup, io::Over::cells, {"patch", 1, Array<std::int64_t>{}});
+    const bool arrays_stay =
+        io::stores(format, soup, io::ArrayAssociation::cells, {"patch", 1, Array<std::int64_t>{}});
     const PatchList& groups = soup.groups[static_cast<std::size_t>(soup.top_dimension())];
-    if (format.holds.groups && (format.holds.group_names || !arrays_stay)) {
+    if (format.features.groups && (format.features.group_names || !arrays_stay)) {
         arrays_to_groups(soup);
-    } else if (!format.holds.groups || patch_number(groups, "terminating") != 0) {
+    } else if (!format.features.groups || patch_number(groups, "terminating") != 0) {
         groups_to_arrays(soup);
     }
 }
@@ -134,7 +135,7 @@ public:
         require_dimension(command_, format_, soup);
         settle_groups(format_, soup);
         add_losses(io::losses(format_, soup, command_.writing));
-        if (format_.holds.tags) {
+        if (format_.features.one_based_tags) {
             number_by_tags(soup);
         }
         const io::MeshColumns mesh = columns_to_write(soup);
@@ -187,7 +188,7 @@ void write_parts(const ConvertCommand& command, const io::Soup& soup, Output& ou
 int convert(const ConvertCommand& command) {
     const io::Format& from = format_to_read(command.in, command.from);
     const io::Format& to = format_to_write(command.out, command.to);
-    io::require_offered(to, command.writing, "--");
+    io::require_supported(to, command.writing, "--");
     require_sense(command);
     io::Soup soup = from.read(command.in);
     const std::vector<std::string> lost_numbers = io::lost_numbers(soup);

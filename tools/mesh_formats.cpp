@@ -11,44 +11,34 @@ namespace slabhull::tools {
 
 namespace {
 
-/// The names of the formats that can be read, or written.
-template<class Able>
-std::string names_of(const Able& able) {
+std::string names_of_formats() {
     std::string names;
     for (const io::Format& format : io::formats()) {
-        if (able(format)) {
-            names += (names.empty() ? "" : ", ") + std::string{format.name};
-        }
+        names += (names.empty() ? "" : ", ") + std::string{format.name};
     }
     return names;
 }
 
-template<class Able>
-const io::Format& choose(const std::string& file, const std::string& name, const char* option,
-                         const char* done, const Able& able) {
+const io::Format& choose(const std::string& file, const std::string& name, const char* option) {
     const io::Format* format = name.empty() ? io::format_of_extension(file) : io::format_named(name);
     if (format == nullptr) {
-        throw UsageError{
-            name.empty() ? fmt::format("{}: no format has this extension; give {} one of {}", file, option,
-                                       names_of(able))
-                         : fmt::format("{}: expected one of {}, not \"{}\"", option, names_of(able), name)};
+        throw UsageError{name.empty() ? fmt::format("{}: no format has this extension; give {} one of {}",
+                                                    file, option, names_of_formats())
+                                      : fmt::format("{}: expected one of {}, not \"{}\"", option,
+                                                    names_of_formats(), name)};
     }
-    if (!able(*format)) {
-        throw UsageError{fmt::format("{}: {} is not {}; {} are", file, format->title, done, names_of(able))};
-    }
+    io::require_built(*format);
     return *format;
 }
 
 } // namespace
 
 const io::Format& format_to_read(const std::string& file, const std::string& name) {
-    return choose(file, name, "--from", "read",
-                  [](const io::Format& format) { return format.read != nullptr; });
+    return choose(file, name, "--from");
 }
 
 const io::Format& format_to_write(const std::string& file, const std::string& name) {
-    return choose(file, name, "--to", "written",
-                  [](const io::Format& format) { return format.write != nullptr; });
+    return choose(file, name, "--to");
 }
 
 io::Soup read_named(const std::string& file, const std::string& name) {
@@ -56,12 +46,13 @@ io::Soup read_named(const std::string& file, const std::string& name) {
 }
 
 std::string formats_help() {
-    std::string text = "Formats:\n";
+    std::string text = "Formats, all of them read and written:\n";
     for (const io::Format& format : io::formats()) {
-        text += fmt::format("  {:<8} {} ({}{}{})\n", format.name, fmt::join(format.extensions, " "),
-                            format.read != nullptr ? "read" : "",
-                            format.read != nullptr && format.write != nullptr ? ", " : "",
-                            format.write != nullptr ? "written" : "");
+        text += fmt::format("  {:<8} {}\n", format.name, fmt::join(format.extensions, " "));
+    }
+    for (const io::Format& format : io::formats_left_out()) {
+        text +=
+            fmt::format("  {:<8} {} (not in this build)\n", format.name, fmt::join(format.extensions, " "));
     }
     return text;
 }

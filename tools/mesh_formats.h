@@ -7,8 +7,8 @@
 
 namespace slabhull::tools {
 
-/// The format that `name` says or, where it is empty, the extension of `file`. Throws UsageError, naming the
-/// option that would help, when there is none or it is not read (or written), before the file is touched.
+/// The format of that name or, where `name` is empty, that of the extension of `file`. Throws UsageError when
+/// there is none, naming the option that would help, or when this build has it not; the file is not touched.
 const io::Format& format_to_read(const std::string& file, const std::string& name);
 const io::Format& format_to_write(const std::string& file, const std::string& name);
 
@@ -16,7 +16,7 @@ const io::Format& format_to_write(const std::string& file, const std::string& na
 /// UsageError for a name that is none.
 io::Soup read_named(const std::string& file, const std::string& name);
 
-/// A line for each format: name, extensions, read or written; for --help.
+/// A line for each format, with its name and extensions; for --help.
 std::string formats_help();
 
 /// "triangles", for counts of the simplices of that dimension.

@@ -320,7 +320,7 @@ private:
         for (const std::string& format : case_.formats) {
             case_.writing[format].pieces = pieces;
             try {
-                io::require_offered(*io::format_named(format), case_.writing[format], "");
+                io::require_supported(*io::format_named(format), case_.writing[format], "");
             } catch (const UsageError& error) {
                 table.fail("pieces", fmt::format("formats that have them ({})", error.what()));
             }
@@ -329,7 +329,7 @@ private:
 
     /// How files of a format are written: [output.msh] version = "2.2".
     void read_writing(KeyTable table, const char* format) {
-        const io::Offers& offers = io::format_named(format)->offers;
+        const io::WriteVariants& variants = io::format_named(format)->variants;
         const auto one_of = [&](const char* key, const std::vector<std::string_view>& offered) {
             const std::string chosen = table.optional_text(key).value_or("");
             if (!chosen.empty() && std::find(offered.begin(), offered.end(), chosen) == offered.end()) {
@@ -339,9 +339,9 @@ private:
             return chosen;
         };
         io::WriteOptions& writing = case_.writing[format];
-        writing.encoding = one_of("encoding", offers.encodings);
-        if (offers.versions.size() > 1) {
-            writing.version = one_of("version", offers.versions);
+        writing.encoding = one_of("encoding", variants.encodings);
+        if (variants.versions.size() > 1) {
+            writing.version = one_of("version", variants.versions);
         }
         table.require_all_known();
     }

@@ -10,8 +10,10 @@
 #include <array>
 #include <cctype>
 #include <fmt/format.h>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace fuzz {
 
@@ -53,8 +55,7 @@ namespace {
 
 bool can_hold(const io::Format& format, const io::Soup& soup) {
     const int dimension = soup.top_dimension();
-    return format.write != nullptr && dimension >= format.holds.least_dimension &&
-           dimension <= format.holds.most_dimension;
+    return dimension >= format.features.min_dimension && dimension <= format.features.max_dimension;
 }
 
 /// Writers refuse what the format cannot hold, by an Error; true if it is written.
@@ -83,12 +84,12 @@ void write_and_read_again(const io::Format& format, const io::Soup& soup) {
             const auto& groups = soup.simplices[static_cast<std::size_t>(soup.top_dimension())].physical;
             const bool all_grouped =
                 !groups.empty() && std::find(groups.begin(), groups.end(), 0) == groups.end();
-            const bool exact = format.holds.wide_integers;
+            const bool exact = format.features.wide_integers;
             require(difference(soup, again,
-                               {.groups = format.holds.groups && all_grouped,
-                                .point_data = format.holds.point_data && exact,
-                                .cell_data = format.holds.cell_data && exact,
-                                .field_data = format.holds.field_data && exact}),
+                               {.groups = format.features.groups && all_grouped,
+                                .point_data = format.features.point_data && exact,
+                                .cell_data = format.features.cell_data && exact,
+                                .field_data = format.features.field_data && exact}),
                     "read again");
         }
     } catch (const InputError& error) {
@@ -206,13 +207,21 @@ constexpr std::array all{
 } // namespace
 
 std::span<const Reader> readers() {
-    return all;
+    static const std::vector<Reader> built = [] {
+        std::vector<Reader> some;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(some), [](const Reader& reader) {
+            const io::Format* format = io::format_named(reader.name);
+            return format == nullptr || format->built;
+        });
+        return some;
+    }();
+    return built;
 }
 
 const Reader* reader_named(std::string_view name) {
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const Reader& reader) { return reader.name == name; });
-    return found == all.end() ? nullptr : &*found;
+    const auto found = std::find_if(readers().begin(), readers().end(),
+                                    [&](const Reader& reader) { return reader.name == name; });
+    return found == readers().end() ? nullptr : &*found;
 }
 
 } // namespace fuzz

@@ -17,9 +17,9 @@ struct Reader {
     Outcome (*read)(std::string_view bytes);
 };
 
-/// One for each format, by the format's name, and `curve`, `csv`, `case`.
+/// One for each format of this build, by the format's name, and `curve`, `csv`, `case`.
 std::span<const Reader> readers();
-/// nullptr: none of that name.
+/// nullptr: none of that name in this build.
 const Reader* reader_named(std::string_view name);
 
 } // namespace fuzz

@@ -2,10 +2,45 @@
 // Writes samples for independent_readers.py: write_samples FOLDER, and for each file what is in it to stdout.
 #include "io/specimens.h"
 #include "slabhull/io/files.h"
+#include "slabhull/io/formats.h"
 
 #include <fmt/format.h>
 #include <tuple>
 #include <utility>
+
+namespace {
+
+bool is_built(const char* format) {
+    return slabhull::io::format_named(format)->built;
+}
+
+/// In the formats that a build may leave out.
+void write_optional_formats(const std::filesystem::path& folder, int dimension,
+                            const slabhull::io::MeshColumns& mesh) {
+    const auto named = [&](const char* ending) {
+        return folder / fmt::format("grid{}{}", dimension, ending);
+    };
+    if (is_built("medit")) {
+        slabhull::io::write_medit(named(".mesh"), mesh);
+        slabhull::io::write_medit(named("_4d.mesh"), mesh, {.four_dimensional = true});
+    }
+    if (is_built("mfem")) {
+        slabhull::io::write_mfem(named(".mfem"), mesh);
+    }
+    if (is_built("avro")) {
+        slabhull::io::write_avro(named(".avro"), mesh);
+    }
+    if (is_built("vtk")) {
+        slabhull::io::AtomicFile legacy{named(".vtk")};
+        slabhull::io::write_vtk(legacy, mesh);
+        legacy.commit();
+    }
+    if (is_built("tetgen") && dimension > 1) {
+        slabhull::io::write_tetgen(named(""), mesh);
+    }
+}
+
+} // namespace
 
 int main(int argument_count, char** arguments) {
     if (argument_count != 2) {
@@ -31,17 +66,7 @@ int main(int argument_count, char** arguments) {
             slabhull::io::write_msh(folder / fmt::format("grid{}{}.msh", dimension, name), grid.columns(),
                                     {.version = version, .ascii = ascii});
         }
-        slabhull::io::write_medit(folder / fmt::format("grid{}.mesh", dimension), grid.columns());
-        slabhull::io::write_medit(folder / fmt::format("grid{}_4d.mesh", dimension), grid.columns(),
-                                  {.four_dimensional = true});
-        slabhull::io::write_mfem(folder / fmt::format("grid{}.mfem", dimension), grid.columns());
-        slabhull::io::write_avro(folder / fmt::format("grid{}.avro", dimension), grid.columns());
-        slabhull::io::AtomicFile legacy{folder / fmt::format("grid{}.vtk", dimension)};
-        slabhull::io::write_vtk(legacy, grid.columns());
-        legacy.commit();
-        if (dimension > 1) {
-            slabhull::io::write_tetgen(folder / fmt::format("grid{}", dimension), grid.columns());
-        }
+        write_optional_formats(folder, dimension, grid.columns());
     }
     const specimens::Grid surface{2, 110}; // that of grid2.vtu
     for (const char* name : {"grid2.stl", "grid2.off", "grid2.obj", "grid2.ply"}) {

@@ -397,6 +397,7 @@ class Formats(ProgramTest):
     def refused_each(self, table):
         for name, text, before, after, *words in table:
             with self.subTest(name, before=before, after=after[:30]):
+                self.skip_if_left_out(name)
                 self.assertIn(before, text)
                 self.put("a.node", NODE)
                 self.refused_file(name, text.replace(before, after, 1), *words)
@@ -404,6 +405,7 @@ class Formats(ProgramTest):
     def test_the_files_themselves_are_good(self):
         for name, text in WHOLE.items():
             with self.subTest(name):
+                self.skip_if_left_out(name)
                 self.assertEqual(slabhull("info", self.put(name, text)).code, 0)
 
     def test_counts_that_no_file_could_hold(self):
@@ -418,6 +420,7 @@ class Formats(ProgramTest):
     def test_torn_files(self):
         for name, text in WHOLE.items():
             with self.subTest(name):
+                self.skip_if_left_out(name)
                 self.refused_file(name, text[:len(text) // 2])
                 self.refused_file(name, "")
 
@@ -431,12 +434,14 @@ class Formats(ProgramTest):
                 ("a.off", OFF, "OFF", long), ("a.obj", OBJ, "f 1", "f " + long), ("a.ply", PLY, "double", long),
                 ("a.stl", STL, "facet", long), ("a.stl", STL, "endloop", long), ("a.node", NODE, "1 1 0", "1 1 " + long)):
             with self.subTest(name, before=before):
+                self.skip_if_left_out(name)
                 self.refused_file(name, text.replace(before, after, 1))
 
     def test_deep_nesting(self):
         deep = 500_000
         self.refused_file("a.vtu", "<a>" * deep)
         self.refused_file("a.vtu", "<VTKFile>" + "<a>" * deep + "</a>" * deep + "</VTKFile>")
+        self.skip_if_left_out("a.avro")
         self.refused_file("a.avro", '{"a":' + "[" * deep)
         self.refused_file("a.avro", '{"a":' + "[" * deep + "]" * deep + "}")
 

@@ -5,7 +5,7 @@ import json
 import unittest
 
 import harness
-from harness import ROOT, ProgramTest, slabhull
+from harness import ROOT, ProgramTest, needs_formats, slabhull
 
 CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 2\n'
 SPHERE = '[initial]\nexperiment = "expanding-sphere"\nlevel = 1\n'
@@ -151,6 +151,7 @@ class Ways(ConvertTest):
                 np.testing.assert_array_equal(second.get_cell_data("gmsh:physical", kind),
                                               first.get_cell_data("gmsh:physical", kind))
 
+    @needs_formats("medit")
     def test_medit_s_dialect_keeps_the_times_of_a_hull(self):
         vtu, _ = self.hull(SPHERE)
         plain = self.convert(vtu, "plain.mesh", told=["names of groups: ", "initial", "point data t,"])
@@ -168,6 +169,7 @@ class Ways(ConvertTest):
         self.assertIn('point data "t"', result.err)
         self.assertFalse((self.dir / "room.mesh").exists())
 
+    @needs_formats("tetgen")
     def test_a_hull_goes_through_tetgen_s_files_and_stays_sound(self):
         vtu, _ = self.hull(SPHERE)
         result = slabhull("convert", vtu, self.dir / "hull.ele")
@@ -182,6 +184,7 @@ class Ways(ConvertTest):
             for key in ("cells_by_region", "measure", "betti"):
                 self.assertEqual(seen[key], self.check(vtu)[key], path)
 
+    @needs_formats("tetgen")
     def test_tetgen_files_are_called_after_the_stem_and_leave_none_where_one_cannot_be_written(self):
         for name, files in (("a.poly", {"a.node", "a.face", "a.poly"}), ("b.smesh", {"b.node", "b.face", "b.smesh"}),
                             ("c.data", {"c.data.node", "c.data.face", "c.data.smesh"})):
@@ -196,6 +199,7 @@ class Ways(ConvertTest):
         self.assertEqual([path.name for path in self.dir.glob("d.*")], ["d.face"])
         self.refused_arguments(2, ["e.smesh", ".ele"], ROOM, self.dir / "e.smesh")
 
+    @needs_formats("medit", "mfem", "tetgen")
     def test_lower_simplices_and_groups_go_through_medit_mfem_and_tetgen(self):
         room = json.loads(slabhull("info", ROOM, "--json").out)
         groups = [(g["dimension"], g["number"], g["cells"]) for g in room["groups"]]
@@ -241,6 +245,7 @@ class Parts(ConvertTest):
 
 
 class AllFormatsAreRead(ConvertTest):
+    @needs_formats("vtk", "tetgen")
     def test_check_and_slice_read_a_hull_from_whatever_holds_it(self):
         vtu, _ = self.hull(SPHERE)
         sound = self.check(vtu)
@@ -251,6 +256,7 @@ class AllFormatsAreRead(ConvertTest):
             self.assertEqual(result.code, 0, result.err)
             self.assertLess(json.loads(result.out)["sections"][0]["measure"]["closure"], 1e-9)
 
+    @needs_formats("mfem", "medit", "tetgen")
     def test_a_domain_is_built_from_whatever_holds_it(self):
         text = (ROOT / "examples/room.toml").read_text()
         (self.dir / "room.msh").write_bytes(ROOM.read_bytes())
@@ -264,6 +270,7 @@ class AllFormatsAreRead(ConvertTest):
             _, ours = self.build(self.case(numbered, "numbered.toml"), out=name + "_out")
             self.assertEqual(ours["slabs"][0]["measure"], gmsh["slabs"][0]["measure"], name)
 
+    @needs_formats("vtk")
     def test_a_file_without_a_telling_name_is_known_by_its_content_or_by_from(self):
         vtu, msh = self.hull(CIRCLE)
         for source, name in ((vtu, "vtu"), (msh, "msh"), (self.convert(vtu, "a.vtk"), "vtk")):

@@ -25,6 +25,21 @@ def slabhull(*arguments, timeout=600):
     return Result(done)
 
 
+def find_left_out():
+    """The formats that this build was configured without, by name, and their extensions."""
+    rows = [line.split() for line in slabhull("convert", "--help").out.splitlines() if "(not in this build)" in line]
+    return {row[0]: row[1:row.index("(not")] for row in rows}
+
+
+LEFT_OUT = find_left_out()
+
+
+def needs_formats(*names):
+    """Skips a test, with the names, in a build that has not all of these formats."""
+    missing = [name for name in names if name in LEFT_OUT]
+    return unittest.skipIf(missing, f"left out of this build: {', '.join(missing)}")
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a scratch directory of its own."""
 
@@ -32,6 +47,12 @@ class ProgramTest(unittest.TestCase):
         scratch = tempfile.TemporaryDirectory(prefix="slabhull-test-")
         self.addCleanup(scratch.cleanup)
         self.dir = Path(scratch.name)
+
+    def skip_if_left_out(self, file):
+        """Skips the (sub)test when its file is of a format that this build has not."""
+        for name, extensions in LEFT_OUT.items():
+            if Path(file).suffix in extensions:
+                self.skipTest(f"left out of this build: {name}")
 
     def case(self, text, name="case.toml"):
         path = self.dir / name

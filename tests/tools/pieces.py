@@ -129,7 +129,7 @@ class Pvtu(PiecesTest):
         self.refused(2, ["4.1"], ROOM, self.dir / "out.msh", "--pieces", 2, "--version", "2.2")
         self.refused(2, ["--pieces", "4.1"], self.dir / "none.msh", self.dir / "out.msh", "--pieces", 2, "--encoding", "ascii")
         self.refused(2, ["10000000 pieces"], ROOM, self.dir / "room.pvtu", "--pieces", 10000000)
-        self.refused(2, ["not written in pieces"], ROOM, self.dir / "room.avro", "--pieces", 2)
+        self.refused(2, ["not written in pieces"], ROOM, self.dir / "room.off", "--pieces", 2)
         self.assertEqual(list(self.dir.iterdir()), [])
 
     def test_a_disk_that_is_full_midway_leaves_no_piece_and_keeps_what_was_there(self):

@@ -4,7 +4,7 @@ import importlib.util
 import unittest
 
 import harness
-from harness import ROOT, ProgramTest, slabhull
+from harness import ROOT, ProgramTest, needs_formats, slabhull
 
 CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 2\n'
 SPHERE = '[initial]\nexperiment = "expanding-sphere"\nlevel = 1\n'
@@ -12,6 +12,7 @@ ROOM = ROOT / "examples/room.msh"
 HAVE_READERS = all(importlib.util.find_spec(module) for module in ("meshio", "numpy", "h5py"))
 
 
+@needs_formats("xdmf")
 class Xdmf(ProgramTest):
     def setUp(self):
         super().setUp()

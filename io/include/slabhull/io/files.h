@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/core/error.h"
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/io/csv_table.h"
 #include "slabhull/io/soup.h"
@@ -18,6 +19,13 @@ namespace slabhull::io {
 // write beside the final name and rename when complete and synced; they throw OutputError, and then whatever
 // stood under the final name is untouched. Their memory does not grow with the mesh; the bytes do not depend
 // on the number of threads.
+
+/// This build was configured without a format. Legacy VTK, XDMF, TetGen, Medit, MFEM and avro can be left out
+/// (SLABHULL_FORMATS); their readers and writers then throw this.
+class FormatLeftOut : public UsageError {
+public:
+    using UsageError::UsageError;
+};
 
 /// MSH 2.2 and 4.1, ASCII and binary, in either byte order. Points and straight lines, triangles and
 /// tetrahedra; other elements are refused by name. Parameters of nodes are passed over, and so are

@@ -6,6 +6,7 @@
 #include "slabhull/io/soup.h"
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,89 +14,98 @@
 
 namespace slabhull::io {
 
-/// How a file shall be written; what is empty is as the format does it by default.
+/// How to write a file. Empty members mean the format's default.
 struct WriteOptions {
-    std::string encoding; ///< one of Offers::encodings
-    std::string version;  ///< one of Offers::versions
+    std::string encoding; ///< one of WriteVariants::encodings
+    std::string version;  ///< one of WriteVariants::versions
     bool four_dimensional = false;
-    std::size_t pieces = 0; ///< files, where Offers::pieces; 0: not cut
+    std::size_t pieces = 0; ///< number of files, where WriteVariants::pieces; 0: the mesh is not cut
 };
 
-/// Where the rows of an array are.
-enum class Over { points, cells, field };
+/// What the rows of a data array belong to; `field`: to the whole mesh.
+enum class ArrayAssociation { points, cells, field };
 
-/// What a format can hold beside points and the cells of one dimension.
-struct Holds {
-    int least_dimension = 1; ///< of the cells
-    int most_dimension = 3;
-    int least_lower = 4;      ///< of simplices of lower dimensions beside them; 4: none ...
-    bool only_facets = false; ///< ... and only those one dimension lower
-    bool groups = false;      ///< numbered groups of cells ...
-    bool group_names = true;  ///< ... with names ...
-    bool no_group = true;     ///< ... which some cells may not be in
+/// What a format can store besides points and the cells of one dimension.
+struct FormatFeatures {
+    int min_dimension = 1; ///< of the cells
+    int max_dimension = 3;
+    std::optional<int> min_lower_dimension{}; ///< of simplices beside the cells; none: cells only
+    bool only_facets = false;                 ///< of lower simplices, only those of the dimension below
+    bool groups = false;                      ///< numbered groups of cells
+    bool group_names = true;
+    bool ungrouped_cells = true; ///< a cell may be in no group
     bool point_data = false;
     bool cell_data = false;
     bool field_data = false;
-    bool wide_integers = true; ///< whole numbers above 2^53
-    bool components = true;    ///< any number of them in an array, else 1, and 3 and 9 of reals
-    bool tags = false;         ///< data that name cells do so by element tags, which count from 1
-    bool doubles = true;       ///< as coordinates; else single precision
-    bool shared_points = true; ///< else each cell has points of its own, which are joined when read
+    bool wide_integers = true;    ///< integers above 2^53
+    bool any_components = true;   ///< else 1 per array; 3 and 9 of reals, too
+    bool one_based_tags = false;  ///< arrays of cell numbers hold element tags, which count from 1
+    bool double_precision = true; ///< of coordinates
+    bool shared_points = true;    ///< else each cell repeats its points; a reader joins equal ones
 
-    /// Whether an array of numbers is kept, for formats of which the flags above do not tell.
-    using Keeps = bool (*)(const Soup& soup, Over over, const DataArray& array, const WriteOptions& options);
-    Keeps keeps = nullptr;
+    /// Whether an array of numbers is stored, for formats where the flags above do not tell.
+    using StoresArray = bool (*)(const Soup& soup, ArrayAssociation association, const DataArray& array,
+                                 const WriteOptions& options);
+    StoresArray stores_array = nullptr;
 };
 
-/// The ways in which a format can be written, of each list the default first.
-struct Offers {
+/// The variants in which a format can be written; the first of each list is the default.
+struct WriteVariants {
     std::vector<std::string_view> encodings{};
     std::vector<std::string_view> versions{};
-    bool four_dimensional = false; ///< a dialect for points of space-time
-    bool pieces = false;           ///< several files, for readers that work in parallel ...
-    bool plain_pieces = false;     ///< ... only in the default encoding and version
+    bool four_dimensional = false;    ///< a dialect for points of space-time
+    bool pieces = false;              ///< several files, for parallel readers
+    bool pieces_default_only = false; ///< pieces only in the default encoding and version
 };
 
-/// A file format: how it is called, read and written.
+/// A file format: its names, its reader and its writer.
 struct Format {
     using Read = Soup (*)(const std::filesystem::path& path);
-    /// Opens the file, and those that belong to it, for the caller to commit.
+    /// Opens the file, and the files that belong to it, for the caller to commit.
     using Write = void (*)(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                            const WriteOptions& options);
 
     std::string_view name;                    ///< as users type it: "msh"
     std::string_view title;                   ///< as messages call it: "MSH"
     std::vector<std::string_view> extensions; ///< in lower case, with the dot
-    std::vector<std::string_view> marks;      ///< one of them starts a file; <this stands soon after
-    Read read = nullptr;                      ///< nullptr: not read
-    Write write = nullptr;                    ///< nullptr: not written
-    Holds holds{};                            ///< where it is written
-    Offers offers{};
+    std::vector<std::string_view> signatures; ///< one of them starts a file; <this stands soon after
+    Read read = nullptr;                      ///< throws FormatLeftOut unless `built`
+    Write write = nullptr;                    ///< throws FormatLeftOut unless `built`
+    FormatFeatures features{};
+    WriteVariants variants{};
+    bool built = true; ///< false: left out of this build by SLABHULL_FORMATS
 };
 
-/// All formats, in the order in which extensions are looked up.
+/// The formats of this build, in the order in which extensions are looked up.
 std::span<const Format> formats();
-/// The format that goes by that name or, failing that, by that extension (in any case); nullptr: none.
+/// The formats that this build was configured without.
+std::span<const Format> formats_left_out();
+
+/// The format of that name or, failing that, of that extension (in any case), whether this build has it or
+/// not; nullptr: no such format.
 const Format* format_named(std::string_view name);
 const Format* format_of_extension(const std::filesystem::path& path);
-/// The format that is read and of which the file's first bytes are; nullptr: none. Throws InputError.
+/// The format whose signature the file starts with; nullptr: none. Throws InputError.
 const Format* format_of_content(const std::filesystem::path& path);
 
-/// Throws UsageError unless the format is written so. `prefix` stands before the options' names ("encoding",
-/// "version", "four-dimensional") in messages: "--".
-void require_offered(const Format& format, const WriteOptions& options, const std::string& prefix);
+/// Throws FormatLeftOut unless this build has the format.
+void require_built(const Format& format);
 
-/// The same for the writers themselves.
+/// Throws UsageError unless the format can be written with these options. `prefix` stands before the options'
+/// names ("encoding", "version", "four-dimensional") in messages: "--".
+void require_supported(const Format& format, const WriteOptions& options, const std::string& prefix);
+
+/// The options in the terms of the VTU and MSH writers.
 VtuEncoding vtu_encoding(const WriteOptions& options);
 MshOptions msh_options(const WriteOptions& options);
 
-/// What a soup has that the format cannot hold, each in a few words: "point data t, vertex_id".
+/// What the format cannot store of a soup, each in a few words: "point data t, vertex_id".
 std::vector<std::string> losses(const Format& format, const Soup& soup, const WriteOptions& options = {});
-/// Whether the format has a place for an array.
-bool keeps(const Format& format, const Soup& soup, Over over, const DataArray& array,
-           const WriteOptions& options = {});
-/// What no writer keeps of a soup, as all number anew, from 0 or 1: numbers of points and cells that count
-/// otherwise, geometric entities of which there are more than groups.
+/// Whether the format stores an array.
+bool stores(const Format& format, const Soup& soup, ArrayAssociation association, const DataArray& array,
+            const WriteOptions& options = {});
+/// What no writer stores of a soup, because all of them number points and cells anew from 0 or 1: other
+/// numbers of points and cells, and geometric entities where there are more of them than groups.
 std::vector<std::string> lost_numbers(const Soup& soup);
 
 } // namespace slabhull::io
