@@ -147,6 +147,9 @@ private:
                           fmt::format("a spacing that makes at most {} layers in a slab", most_layers));
             }
         }
+        if (time.has("layer_tolerance")) {
+            case_.layer_tolerance = time.positive("layer_tolerance");
+        }
         require_distinct_levels(time);
         read_adapt(time);
         time.require_all_known();
@@ -376,12 +379,7 @@ std::vector<double> Case::level_times(double begin, double end_of_slab) const {
     const double duration = end_of_slab - begin;
     // A spacing that divides the duration up to rounding does so exactly.
     const double wanted = spacing ? std::max(1.0, std::ceil(duration / *spacing - 1e-9)) : layers.value_or(1);
-    std::vector<double> times;
-    for (double layer = 0; layer < wanted; ++layer) {
-        times.push_back(begin + duration * layer / wanted);
-    }
-    times.push_back(end_of_slab);
-    return times;
+    return even_levels(begin, end_of_slab, static_cast<std::size_t>(wanted));
 }
 
 } // namespace slabhull

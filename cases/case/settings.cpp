@@ -35,6 +35,8 @@ public:
     CaseSettings<D> run() {
         settings_.motion_start = case_.start;
         settings_.trajectory = case_.trajectory;
+        settings_.layers.automatic = case_.layers_follow_motion();
+        settings_.layers.tolerance = case_.layer_tolerance;
         settings_.side = {case_.split, case_.diagonals};
         settings_.cap = cap_options(case_);
         settings_.reuse = case_.cap_reuse;

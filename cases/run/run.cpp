@@ -55,6 +55,17 @@ Json shares_as_json(const StageClock& clock) {
     return shares;
 }
 
+Json as_json(const LayerFit& fit, std::optional<std::size_t> enough) {
+    Json json{{"number", fit.layers},
+              {"largest_deviation", std::isfinite(fit.deviation) ? Json(fit.deviation) : Json()},
+              {"largest_turn", fit.turn},
+              {"sound", fit.sound()}};
+    if (enough) {
+        json["would_do"] = *enough;
+    }
+    return json;
+}
+
 Json peaks_as_json() {
     return {{"bytes", peak_memory()}, {"mesher_bytes", peak_memory_of_children()}};
 }
@@ -74,6 +85,8 @@ Json settings_as_json(const Case& the_case) {
             {"start", the_case.start},
             {"end", the_case.end},
             {"slabs", the_case.slabs},
+            {"layers", the_case.layers_follow_motion() ? "motion" : "given"},
+            {"layer_tolerance", the_case.layer_tolerance},
             {"scheme", scheme_name(the_case.trajectory.scheme)},
             {"substeps", the_case.trajectory.substeps},
             {"split", split_name(the_case.split)},
@@ -184,6 +197,7 @@ private:
                            (time - case_.start) / (case_.end - case_.start));
         StageClock clock;
         Slab<D> slab = build(clock);
+        warn_of_layers(slab);
         SlabFiles files;
         begin_writing(slab, files); // the disk is slow: it works while the hull is checked
         const HullReport checked = check_hull<D>(columns_of(slab.hull));
@@ -243,6 +257,25 @@ private:
         }
     }
 
+    /// Once: reports have the figures of every slab.
+    void warn_of_layers(const Slab<D>& slab) {
+        if (slab.layers.sound() || !march_->settings().layers.suggest) {
+            return;
+        }
+        march_->settings().layers.suggest = false;
+        const std::string enough =
+            slab.layers_enough ? fmt::format("{} would do", *slab.layers_enough)
+                               : fmt::format("none up to {} would do", march_->settings().layers.most);
+        listener_.warning(fmt::format(
+            "slab {}: {} {} too few for the motion of patch {}: it is up to {:.3g} local edge lengths off "
+            "its "
+            "chords (time.layer_tolerance is {:g}) and facets turn by up to {:.3g} degrees in a layer, worst "
+            "near t = {:.6g}; {}. Without time.layers and time.spacing, the number follows from the motion",
+            slab.hull.slab, slab.layers.layers, slab.layers.layers == 1 ? "layer is" : "layers are",
+            patch_name(patches_, slab.layers.patch), slab.layers.deviation, case_.layer_tolerance,
+            slab.layers.turn, slab.layers.time, enough));
+    }
+
     void begin_writing(const Slab<D>& slab, SlabFiles& files) {
         files.written = std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred,
                                    [this, &slab, &files] { write(slab, files); });
@@ -271,6 +304,7 @@ private:
     static Json report_of(const Slab<D>& slab, const HullReport& checked, const StageClock& clock) {
         Json json = as_json(checked);
         json["slab"] = slab.hull.slab;
+        json["layers"] = as_json(slab.layers, slab.layers_enough);
         json["projection"] = Json::object();
         for (const auto& [patch, moved] : slab.projected) {
             json["projection"][patch_name(slab.hull.patches, patch)] = {{"largest", moved.largest},

@@ -113,6 +113,8 @@ public:
         });
     }
 
+    std::vector<double> row_times() const override { return rows_.times; }
+
 private:
     void require_consistent() const {
         const bool lengths_agree =

@@ -82,8 +82,10 @@ Attitude<3> attitude_of_quaternion(const Sample<4>& p, double t) {
 template<int D>
 class TabulatedMotion final : public Motion<D> {
 public:
-    TabulatedMotion(const Point<D>& centre, CubicSpline<D> shift, AttitudeFunction<D> attitude)
-        : centre_{centre}, shift_{std::move(shift)}, attitude_{std::move(attitude)} {}
+    TabulatedMotion(const Point<D>& centre, std::vector<double> times, CubicSpline<D> shift,
+                    AttitudeFunction<D> attitude)
+        : centre_{centre}, times_{std::move(times)}, shift_{std::move(shift)}, attitude_{
+                                                                                   std::move(attitude)} {}
 
     void velocity(std::span<const Point<D>> x, double t, std::span<Point<D>> v) const override {
         const double time = inside(t);
@@ -98,6 +100,8 @@ public:
     std::optional<AffineMap<D>> map(double from, double to) const override {
         return compose(placement(to), inverse_of_similarity<D>(placement(from)));
     }
+
+    std::vector<double> row_times() const override { return times_; }
 
 private:
     /// The map from rest.
@@ -121,6 +125,7 @@ private:
     }
 
     Point<D> centre_;
+    std::vector<double> times_;
     CubicSpline<D> shift_;
     AttitudeFunction<D> attitude_;
 };
@@ -221,7 +226,7 @@ MotionPointer<D> rotation(const Point<D>& axis, const Point<D>& centre, const An
         throw UsageError{"a rotation by table needs angles"};
     }
     return std::make_shared<TabulatedMotion<D>>(
-        centre, standing_shift<D>(table.times),
+        centre, table.times, standing_shift<D>(table.times),
         turning_about<D>(quarter_turn(axis), {table.times, std::move(angles)}));
 }
 
@@ -237,7 +242,7 @@ MotionPointer<D> rigid_table(const RigidTable<D>& table, const Point<D>& centre)
     }
     const bool turns = !table.angles.empty() || !table.quaternions.empty();
     return std::make_shared<TabulatedMotion<D>>(
-        centre,
+        centre, table.times,
         table.shifts.empty() ? standing_shift<D>(table.times) : CubicSpline<D>{table.times, table.shifts},
         turns ? attitude_of(table) : not_turning<D>());
 }

@@ -67,6 +67,17 @@ public:
         return std::any_of(steps_.begin(), steps_.end(), [](const auto& step) { return step->moves(); });
     }
 
+    std::vector<double> row_times() const override {
+        std::vector<double> all;
+        for (const auto& step : steps_) {
+            const std::vector<double> times = step->row_times();
+            all.insert(all.end(), times.begin(), times.end());
+        }
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        return all;
+    }
+
 private:
     void require_step(std::size_t i) const {
         if (steps_[i] == nullptr) {

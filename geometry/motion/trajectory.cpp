@@ -25,6 +25,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -40,6 +41,9 @@ constexpr std::array<std::string_view, 5> names{"euler", "heun", "rk4", "dopri5"
 /// Points per chunk: a state and its few stages stay in the second-level cache, and the adaptive scheme,
 /// which takes one substep for a chunk, sees the same chunks for any number of threads.
 constexpr std::size_t chunk_size = 512;
+
+/// Chunks that a thread takes at a time: fewer points are not worth another one.
+constexpr std::size_t chunks_at_once = 8;
 
 constexpr int most_adaptive_steps = 10'000;
 
@@ -175,6 +179,14 @@ void require_sense(const TrajectoryOptions& options, double from, double to) {
     require_positive(options.tolerance, "trajectory.tolerance");
 }
 
+void for_each_chunk(std::size_t points, const std::function<void(std::size_t, std::size_t)>& body) {
+    parallel_for(points, chunks_at_once * chunk_size, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t first = begin; first < end; first += chunk_size) {
+            body(first, std::min(end, first + chunk_size));
+        }
+    });
+}
+
 template<int D>
 void advance_exactly(const Motion<D>& motion, std::span<Point<D>> x, double from, double to) {
     const std::optional<AffineMap<D>> map = motion.map(from, to);
@@ -192,7 +204,7 @@ void advance_exactly(const Motion<D>& motion, std::span<Point<D>> x, double from
 
 template<int D>
 void advance_by_steps(const Motion<D>& motion, std::span<Point<D>> x, const Course& course) {
-    parallel_for(x.size(), chunk_size, [&](std::size_t begin, std::size_t end) {
+    for_each_chunk(x.size(), [&](std::size_t begin, std::size_t end) {
         const auto chunk = x.subspan(begin, end - begin);
         State state(chunk.size() * D);
         std::copy(chunk.begin(), chunk.end(), as_points<D>(state).begin());

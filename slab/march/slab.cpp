@@ -4,6 +4,10 @@
 #include "slab/march/cap_reuse.h"
 #include "slabhull/slab/tangling.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <climits>
 #include <utility>
 
 namespace slabhull {
@@ -29,14 +33,53 @@ CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const 
     return mesh;
 }
 
+/// How many layers would do where `fit` says that too few were given; nothing when none will.
+template<int D>
+std::optional<std::size_t> enough_layers(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
+                                         const std::vector<double>& times, const SlabSettings<D>& settings,
+                                         const LayerFit& fit) {
+    LayerOptions options = settings.layers;
+    options.at_least = static_cast<int>(std::min<std::size_t>(fit.layers + 1, INT_MAX));
+    if (options.at_least > options.most) {
+        return std::nullopt;
+    }
+    try {
+        return sweep_in_layers<D>(boundary, cap, settings.motions, settings.motion_start,
+                                  {times.front(), times.back()}, settings.trajectory, options)
+            .fit.layers;
+    } catch (const GeometryError&) {
+        return std::nullopt;
+    }
+}
+
+/// Step 3 of the method, with layers as they are given or as the motion needs them.
+template<int D>
+Sweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std::vector<double> times,
+                    const SlabSettings<D>& settings, Slab<D>& slab) {
+    if (settings.layers.automatic && times.size() != 2) {
+        throw UsageError{
+            fmt::format("layers follow from the motion, so a slab has two times, not {}", times.size())};
+    }
+    MeasuredSweep<D> swept =
+        settings.layers.automatic
+            ? sweep_in_layers<D>(boundary, cap, settings.motions, settings.motion_start, {times[0], times[1]},
+                                 settings.trajectory, settings.layers)
+            : sweep_measured<D>(boundary, cap, settings.motions, settings.motion_start, std::move(times),
+                                settings.trajectory, settings.layers);
+    slab.layers = swept.fit;
+    if (!swept.fit.sound() && settings.layers.suggest) {
+        slab.layers_enough = enough_layers(boundary, cap, swept.sweep.times, settings, swept.fit);
+    }
+    return std::move(swept.sweep);
+}
+
 } // namespace
 
 template<int D>
 Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock) {
     Slab<D> slab;
-    Sweep<D> sweep = sweep_boundary<D>(boundary, initial.mesh(), settings.motions, settings.motion_start,
-                                       std::move(times), settings.trajectory);
+    Sweep<D> sweep = sweep_slab(boundary, initial.mesh(), std::move(times), settings, slab);
     clock.book("trajectories");
     require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
     clock.book("boundary check");

@@ -99,38 +99,57 @@ void BoundaryMover<D>::make_creases() {
 
 template<int D>
 Array<Point<D>> BoundaryMover<D>::move(const Array<Point<D>>& from_places, double from, double to) {
+    Array<Point<D>> places = drift(from_places, from, to);
+    project(places, to);
+    return places;
+}
+
+template<int D>
+Array<Point<D>> BoundaryMover<D>::drift(const Array<Point<D>>& from_places, double from, double to,
+                                        int substeps) {
     for (MotionGroup& group : groups_) {
-        advance(group, from_places, from, to);
+        advance(group, from_places, from, to, substeps);
     }
     Array<Point<D>> places = joined(from_places, to);
     if (!groups_.back().patches.empty()) {
         groups_.back().moving->stretch->follow(places);
     }
+    return places;
+}
+
+template<int D>
+void BoundaryMover<D>::project(Array<Point<D>>& places, double to) {
     if (!creases_.empty()) {
         const std::vector<double> edges = sweep_.boundary.shortest_edges(places);
         for (const Crease& crease : creases_) {
             project_crease(crease, places, edges, to);
         }
     }
-    return places;
 }
 
 template<int D>
-void BoundaryMover<D>::advance(MotionGroup& group, const Array<Point<D>>& before, double from,
-                               double to) const {
+void BoundaryMover<D>::advance(MotionGroup& group, const Array<Point<D>>& before, double from, double to,
+                               int substeps) const {
     group.places.clear();
     for (const Index v : group.vertices) {
         group.places.push_back(before[v]);
     }
     if (group.moving != nullptr && group.moving->motion != nullptr) {
-        slabhull::advance<D>(*group.moving->motion, group.places, from, to, options_);
+        TrajectoryOptions options = options_;
+        options.substeps = substeps;
+        slabhull::advance<D>(*group.moving->motion, group.places, from, to, options);
     } else if (group.moving != nullptr && group.moving->nodal != nullptr) {
-        std::vector<TrackId> tracks;
-        for (const Index v : group.vertices) {
-            tracks.push_back(sweep_.boundary.tracks()[v]);
-        }
-        group.moving->nodal->positions(tracks, to, group.places);
+        group.moving->nodal->positions(tracks_of(group.vertices), to, group.places);
     }
+}
+
+template<int D>
+std::vector<TrackId> BoundaryMover<D>::tracks_of(std::span<const Index> vertices) const {
+    std::vector<TrackId> tracks;
+    for (const Index v : vertices) {
+        tracks.push_back(sweep_.boundary.tracks()[v]);
+    }
+    return tracks;
 }
 
 /// Vertices of several groups must have come to the same place; the first group's is taken. Stretching

@@ -4,6 +4,8 @@
 #include "slabhull/core/error.h"
 #include "slabhull/slab/sweep.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <span>
 #include <string>
@@ -26,10 +28,14 @@ public:
     /// more than half of their shortest edge.
     Array<Point<D>> move(const Array<Point<D>>& from_places, double from, double to);
 
-    /// How far projection moved the vertices of each patch, over all moves.
-    const std::map<PatchNumber, ProjectionReport>& projected() const { return projected_; }
+    /// The two halves of move(): where the motions alone take the vertices, in this many substeps ...
+    Array<Point<D>> drift(const Array<Point<D>>& from_places, double from, double to, int substeps);
+    Array<Point<D>> drift(const Array<Point<D>>& from_places, double from, double to) {
+        return drift(from_places, from, to, options_.substeps);
+    }
+    /// ... and the way from there onto the surfaces of their patches.
+    void project(Array<Point<D>>& places, double to);
 
-private:
     /// A set of patches whose vertices follow the same motion: one patch, all those that stand still, or all
     /// those that stretch.
     struct MotionGroup {
@@ -38,6 +44,19 @@ private:
         std::vector<Index> vertices{};          ///< ascending
         std::vector<Point<D>> places{};         ///< of those vertices
     };
+    const std::vector<MotionGroup>& groups() const { return groups_; }
+    /// The substeps that a part of a layer has, one at least.
+    int substeps_of(double part) const {
+        return std::max(1, static_cast<int>(std::ceil(part * options_.substeps - 1e-6)));
+    }
+
+    /// The tracks of vertices of the boundary.
+    std::vector<TrackId> tracks_of(std::span<const Index> vertices) const;
+
+    /// How far projection moved the vertices of each patch, over all moves.
+    const std::map<PatchNumber, ProjectionReport>& projected() const { return projected_; }
+
+private:
     /// Vertices that are to be put on the surfaces of the same patches.
     struct Crease {
         std::vector<PatchNumber> patches; ///< ascending; more than one where they meet
@@ -46,7 +65,8 @@ private:
 
     void make_groups();
     void make_creases();
-    void advance(MotionGroup& group, const Array<Point<D>>& before, double from, double to) const;
+    void advance(MotionGroup& group, const Array<Point<D>>& before, double from, double to,
+                 int substeps) const;
     Array<Point<D>> joined(const Array<Point<D>>& before, double to) const;
     void project_crease(const Crease& crease, Array<Point<D>>& places, std::span<const double> room,
                         double to);

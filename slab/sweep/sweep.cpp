@@ -2,6 +2,7 @@
 #include "slabhull/slab/sweep.h"
 
 #include "slab/sweep/boundary_mover.h"
+#include "slab/sweep/sweep_start.h"
 
 #include <utility>
 
@@ -16,14 +17,7 @@ template<int D>
 Sweep<D> sweep_boundary(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
                         const PatchMotions<D>& motions, double motion_start, std::vector<double> times,
                         const TrajectoryOptions& options) {
-    Sweep<D> sweep;
-    sweep.boundary = boundary;
-    sweep.times = std::move(times);
-    Array<Point<D>> places;
-    for (const Index v : boundary.mesh_vertices()) {
-        places.push_back(cap.points[v]);
-    }
-    sweep.positions.push_back(std::move(places));
+    Sweep<D> sweep = started_sweep(boundary, cap, std::move(times));
     BoundaryMover<D> mover{sweep, motions, motion_start, options};
     for (std::size_t level = 1; level < sweep.times.size(); ++level) {
         sweep.positions.push_back(

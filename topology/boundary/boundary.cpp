@@ -133,6 +133,27 @@ std::vector<double> Boundary<D>::shortest_edges(std::span<const Point<D>> places
 }
 
 template<int D>
+std::vector<double> Boundary<D>::mean_edges(std::span<const Point<D>> places) const {
+    std::vector<double> sum(places.size(), 0.0); // edges inside a surface count twice, once from either side
+    std::vector<Index> count(places.size(), 0);
+    for (const Facet<D>& facet : facets()) {
+        for (std::size_t i = 0; i < D; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                const double length = distance(places[facet[i]], places[facet[j]]);
+                for (const Index v : {facet[i], facet[j]}) {
+                    sum[v] += length;
+                    ++count[v];
+                }
+            }
+        }
+    }
+    for (std::size_t v = 0; v < sum.size(); ++v) {
+        sum[v] /= std::max(count[v], Index{1});
+    }
+    return sum;
+}
+
+template<int D>
 std::vector<Index> Boundary<D>::vertices_of(const std::vector<PatchNumber>& patches) const {
     std::vector<bool> wanted(vertex_count(), false);
     for (std::size_t f = 0; f < facet_count(); ++f) {

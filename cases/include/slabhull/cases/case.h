@@ -115,8 +115,10 @@ struct Case {
     double start = 0;
     double end = 1;
     int slabs = 1;
-    std::optional<int> layers;     ///< of each slab's side ...
-    std::optional<double> spacing; ///< ... or the longest duration of a layer
+    std::optional<int> layers; ///< of each slab's side ...
+    std::optional<double>
+        spacing; ///< ... or the longest duration of a layer; else they follow from the motion
+    double layer_tolerance = 0.05; ///< LayerOptions::tolerance
     bool adapt = false;            ///< a slab ends before its boundary tangles ...
     double adapt_floor = 0.01;     ///< ... but lasts at least this part of what it should
 
@@ -146,7 +148,9 @@ struct Case {
     double slab_begin(int slab) const;
     /// Where the slab that begins at `time` ends, when nothing cuts it short.
     double slab_end(double time) const;
-    /// The times of the levels of a slab, from its beginning to its end.
+    bool layers_follow_motion() const { return !layers && !spacing; }
+    /// The times of the levels of a slab, from its beginning to its end: these two alone where layers follow
+    /// from the motion.
     std::vector<double> level_times(double begin, double end) const;
     std::vector<double> level_times(int slab) const {
         return level_times(slab_begin(slab), slab_begin(slab + 1));

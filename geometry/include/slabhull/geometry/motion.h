@@ -32,6 +32,10 @@ public:
 
     /// False only for a motion that leaves every point in its place.
     virtual bool moves() const { return true; }
+
+    /// Ascending: the times of a table's rows. Between two of them paths are smooth; who samples a path shall
+    /// not step over them. Empty where the motion is no table.
+    virtual std::vector<double> row_times() const { return {}; }
 };
 
 template<int D>

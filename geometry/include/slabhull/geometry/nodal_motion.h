@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace slabhull {
 
@@ -20,6 +21,9 @@ public:
     /// x[i] = where track tracks[i] is at time t; the spans are equally long.
     /// Throws GeometryError naming the track that is not known, or the times that are.
     virtual void positions(std::span<const TrackId> tracks, double t, std::span<Point<D>> x) const = 0;
+
+    /// As Motion::row_times().
+    virtual std::vector<double> row_times() const { return {}; }
 };
 
 template<int D>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/slab/layers.h"
 #include "slabhull/slab/stage_clock.h"
 #include "slabhull/slab/stitch.h"
 #include "slabhull/slab/sweep.h"
@@ -23,6 +24,7 @@ struct SlabSettings {
     PatchMotions<D> motions;
     double motion_start = 0; ///< time at which projection surfaces are given
     TrajectoryOptions trajectory;
+    LayerOptions layers;
     SideOptions side{D == 3 ? Split::C : Split::centre};
     CapOptions cap;
     CapReuse reuse = CapReuse::none;
@@ -38,13 +40,16 @@ struct Slab {
     bool cap_moved = false; ///< the terminating cap is the initial one, moved; else meshed anew ...
     std::optional<double> moved_angle; ///< ... where tried, the smallest angle (degrees) that moving gave
     int cap_blocks = 1;                ///< in which it was meshed, when it was
-    IdCounter next_ids;                ///< what the next slab counts from
+    LayerFit layers;                   ///< how well they follow the motion ...
+    std::optional<std::size_t> layers_enough; ///< ... and, where too few were given, how many would do
+    IdCounter next_ids;                       ///< what the next slab counts from
 
     /// A copy, made from the hull.
     SpatialMesh<D> terminating() const { return terminating_cap_of<D>(hull, terminating_facets); }
 };
 
-/// Builds slab `number` over the levels `times` on the initial cap, which `boundary` bounds: the seven steps
+/// Builds slab `number` over the levels `times`, or from the first to the last of the two when layers follow
+/// from the motion (LayerOptions::automatic), on the initial cap, which `boundary` bounds: the seven steps
 /// of the method. The hull is not checked as a whole (check_hull() does); the boundary is, on every level,
 /// and so is the terminating cap. New ids are counted from `ids`: first the side's, then those of the
 /// terminating boundary, then those inside the cap. Throws GeometryError naming what and where: motions that

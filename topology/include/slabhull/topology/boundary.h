@@ -73,6 +73,8 @@ public:
     bool owns(std::size_t facet, std::size_t ridge) const { return facet < neighbors()[facet][ridge]; }
     /// Length of the shortest facet edge at each vertex; `places` are those of the vertices.
     std::vector<double> shortest_edges(std::span<const Point<D>> places) const;
+    /// Mean length of the facet edges at each vertex.
+    std::vector<double> mean_edges(std::span<const Point<D>> places) const;
 
     // --- connected components, numbered by their first facet
 
