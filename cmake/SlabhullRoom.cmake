@@ -32,12 +32,12 @@ if(SLABHULL_FUZZ)
     target_link_options(slabhull_flags INTERFACE -fsanitize=${fuzz_sanitizers})
 endif()
 
-# slabhull_room(<name> [NOT_INSTALLED] SOURCES <files> [USES <rooms>] [LINKS <private libraries>])
+# slabhull_room(<name> [NOT_INSTALLED] [NO_HOT_LOOPS] SOURCES <files> [USES <rooms>] [LINKS <private libraries>])
 # A room is a static library Slabhull::<name> with public headers under include/slabhull/<name>/.
 # What it LINKS stays inside its .cpp files and out of its headers. Private headers are included by their path from the
-# top: "geometry/meshing/cap_spacing.h".
+# top: "geometry/meshing/cap_spacing.h". A room with NO_HOT_LOOPS is optimised less, for a quicker build.
 function(slabhull_room name)
-    cmake_parse_arguments(room "NOT_INSTALLED" "" "SOURCES;USES;LINKS" ${ARGN})
+    cmake_parse_arguments(room "NOT_INSTALLED;NO_HOT_LOOPS" "" "SOURCES;USES;LINKS" ${ARGN})
     set(target slabhull_${name})
     add_library(${target} STATIC ${room_SOURCES})
     add_library(Slabhull::${name} ALIAS ${target})
@@ -53,6 +53,9 @@ function(slabhull_room name)
         target_link_libraries(${target} PUBLIC slabhull_${used})
     endforeach()
     target_link_libraries(${target} PRIVATE ${room_LINKS})
+    if(room_NO_HOT_LOOPS)
+        target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
     if(NOT room_NOT_INSTALLED)
         install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
         install(TARGETS ${target} EXPORT SlabhullTargets)

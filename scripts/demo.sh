@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install-deps.sh
-scripts/build.sh release -DSLABHULL_TESTS=OFF
+scripts/build.sh release -DSLABHULL_TESTS=OFF -DSLABHULL_UNITY=ON
 program=build/release/tools/slabhull
 
 echo

@@ -1,11 +1,8 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds both presets and runs all tests: optimised, then under the sanitizers all but those
-# labelled "large".
+# Installs what is missing, builds the release preset and runs all its tests. scripts/check.sh has the sanitizers and the rest.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install-deps.sh --test
 scripts/check-format.sh
-scripts/build.sh release -DSLABHULL_TESTS=ON
+scripts/build.sh release -DSLABHULL_TESTS=ON -DSLABHULL_UNITY=ON
 ctest --test-dir build/release --no-tests=error --output-on-failure -j "$(nproc)"
-scripts/build.sh dev -DSLABHULL_TESTS=ON
-ctest --test-dir build/dev --no-tests=error --output-on-failure -j "$(nproc)" -LE large

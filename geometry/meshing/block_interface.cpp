@@ -17,7 +17,7 @@ namespace slabhull {
 namespace {
 
 /// Smallest angle of the planar triangles: what the refinement reaches nearly always.
-constexpr double min_angle = 30;
+constexpr double interface_angle = 30;
 /// Least length of an edge's projection, as part of the edge.
 constexpr double least_projection = 1.0 / 3;
 /// Rounds of averaging: heights of the rim that alternate fade within an edge or two, others slowly.
@@ -104,7 +104,7 @@ CapMesh<2> mesh_plane(const Surface<2>& curves, const PlaneFrame& plane, const S
     require_domain_boundary<2>(curves, {}, false);
     CapMesh<2> mesh = constrained_delaunay(curves);
     const auto wanted = [&](const Point<2>& p) { return size(plane.at(p, 0)); };
-    refine_delaunay(mesh, {curves, wanted, growth}, min_angle);
+    refine_delaunay(mesh, {curves, wanted, growth}, interface_angle);
     order_along_curve<2>(mesh, curves.points.size());
     return mesh;
 }

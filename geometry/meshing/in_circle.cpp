@@ -9,15 +9,15 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-Kernel::Point_2 cgal(const Point<2>& p) {
+Kernel::Point_2 cgal_point(const Point<2>& p) {
     return {p[0], p[1]};
 }
 
 } // namespace
 
 bool in_circle(const plane::Corners& triangle, const Point<2>& p) {
-    return CGAL::side_of_oriented_circle(cgal(triangle[0]), cgal(triangle[1]), cgal(triangle[2]), cgal(p)) ==
-           CGAL::ON_POSITIVE_SIDE;
+    return CGAL::side_of_oriented_circle(cgal_point(triangle[0]), cgal_point(triangle[1]),
+                                         cgal_point(triangle[2]), cgal_point(p)) == CGAL::ON_POSITIVE_SIDE;
 }
 
 } // namespace slabhull::exact

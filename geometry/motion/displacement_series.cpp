@@ -60,28 +60,29 @@ Weights weights_at(const std::vector<double>& times, double t, TimeInterpolation
     return weights;
 }
 
-[[noreturn]] void refuse_row(std::size_t row, const std::string& what) {
+[[noreturn]] void refuse_row_of_series(std::size_t row, const std::string& what) {
     throw UsageError{what, {{"row", static_cast<std::int64_t>(row), ""}}};
 }
 
 template<int D>
 void require_row(const DisplacementRows<D>& rows, std::size_t row) {
     if (row > 0 && !(rows.times[row] > rows.times[row - 1])) {
-        refuse_row(row, fmt::format("the times of displacements must ascend, but {} comes after {}",
-                                    rows.times[row], rows.times[row - 1]));
+        refuse_row_of_series(row, fmt::format("the times of displacements must ascend, but {} comes after {}",
+                                              rows.times[row], rows.times[row - 1]));
     }
     if (!std::isfinite(rows.times[row])) {
-        refuse_row(row, fmt::format("the time {} of displacements is no finite number", rows.times[row]));
+        refuse_row_of_series(
+            row, fmt::format("the time {} of displacements is no finite number", rows.times[row]));
     }
     const auto& row_of_points = rows.displacements[row];
     if (row_of_points.size() != rows.tracks.size()) {
-        refuse_row(row, fmt::format("{} displacements at t = {} for {} tracks", row_of_points.size(),
-                                    rows.times[row], rows.tracks.size()));
+        refuse_row_of_series(row, fmt::format("{} displacements at t = {} for {} tracks",
+                                              row_of_points.size(), rows.times[row], rows.tracks.size()));
     }
     for (std::size_t i = 0; i < row_of_points.size(); ++i) {
         if (!all_finite(row_of_points[i])) {
-            refuse_row(row, fmt::format("track {} is displaced by {} at t = {}", rows.tracks[i],
-                                        to_text(row_of_points[i]), rows.times[row]));
+            refuse_row_of_series(row, fmt::format("track {} is displaced by {} at t = {}", rows.tracks[i],
+                                                  to_text(row_of_points[i]), rows.times[row]));
         }
     }
 }

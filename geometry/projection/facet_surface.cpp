@@ -27,10 +27,10 @@ using namespace detail;
 
 // CGAL's tree is for boxes in space, so curves of the plane lie in z = 0. It sorts and visits the facets; the
 // closest point of one is ours, since CGAL's needs facets with an extent.
-using Kernel = CGAL::Simple_cartesian<double>;
+using TreeKernel = CGAL::Simple_cartesian<double>;
 
 template<int D>
-Kernel::Point_3 cgal(const Point<D>& p) {
+TreeKernel::Point_3 cgal(const Point<D>& p) {
     if constexpr (D == 3) {
         return {p[0], p[1], p[2]};
     } else {
@@ -43,8 +43,8 @@ template<int D>
 class TreeFacet {
 public:
     using Id = const FacetCorners<D>*;
-    using Point = Kernel::Point_3;
-    using Datum = std::conditional_t<D == 3, Kernel::Triangle_3, Kernel::Segment_3>;
+    using Point = TreeKernel::Point_3;
+    using Datum = std::conditional_t<D == 3, TreeKernel::Triangle_3, TreeKernel::Segment_3>;
 
     TreeFacet() = default;
     explicit TreeFacet(typename std::vector<FacetCorners<D>>::const_iterator facet) : facet_{&*facet} {}
@@ -64,7 +64,7 @@ private:
 };
 
 template<int D>
-using TreeTraits = CGAL::AABB_traits<Kernel, TreeFacet<D>>;
+using TreeTraits = CGAL::AABB_traits<TreeKernel, TreeFacet<D>>;
 
 /// What CGAL's traversal asks while it looks for the facet closest to a point: nodes by their distance, the
 /// nearer child first.

@@ -11,14 +11,14 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::size_t vertices_per_piece = 1 << 13;
+constexpr std::size_t vertices_per_task = 1 << 13;
 
 /// Calls visit(vertex, star, numbering of the link vertices above it) for every used vertex, in parallel.
 /// The walk starts from the first cell of the vertex, so the numbering does not depend on the threads.
 template<class Visit>
 void each_upper_link(std::span<const Simplex<3>> cells, std::span<const Neighbors<3>> neighbors,
                      std::span<const Index> first_cell, const Visit& visit) {
-    parallel_for(first_cell.size(), vertices_per_piece, [&](std::size_t begin, std::size_t end) {
+    parallel_for(first_cell.size(), vertices_per_task, [&](std::size_t begin, std::size_t end) {
         StarWalker<3> walker{cells, neighbors};
         LocalNumbering above;
         for (std::size_t v = begin; v < end; ++v) {
