@@ -2,6 +2,7 @@
 #include "slabhull/core/child_process.h"
 
 #include "slabhull/core/error.h"
+#include "slabhull/core/progress.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -77,11 +79,23 @@ bool transfer(Call call, int descriptor, Byte* place, std::size_t size) {
     return true;
 }
 
+/// Returns when there is something to read, or the other side is gone. Throws Interrupted meanwhile.
+void wait_to_read(int descriptor) {
+    constexpr int milliseconds = 50;
+    pollfd watched{descriptor, POLLIN, 0};
+    do {
+        go_on();
+    } while (poll(&watched, 1, milliseconds) <= 0);
+}
+
 /// As exec() does it: the host's handlers must not run in the copy, and what nohup ignores stays ignored.
 void reset_signals() {
     for (int number = 1; number < NSIG; ++number) {
         struct sigaction action {};
-        if (sigaction(number, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) {
+        // Ctrl-C is for the parent to answer, which then ends its child.
+        if (number == SIGINT || number == SIGTERM) {
+            std::signal(number, SIG_IGN);
+        } else if (sigaction(number, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) {
             std::signal(number, SIG_DFL); // fails for a few that nobody can set
         }
     }
@@ -105,6 +119,7 @@ void die_with(pid_t parent) {
     out.close_now();
     reset_signals();
     die_with(parent);
+    detail::exchange_watch(nullptr);
     try {
         job([&far](const void* bytes, std::size_t size) {
             if (!transfer(write, far.number(), static_cast<const char*>(bytes), size)) {
@@ -173,6 +188,7 @@ ChildEnd run_in_child(const std::function<void(const Send&)>& job,
     start.unlock();
     try {
         const bool received = receive([&](void* bytes, std::size_t size) {
+            wait_to_read(in.number());
             return transfer(read, in.number(), static_cast<char*>(bytes), size);
         });
         in.close_now();

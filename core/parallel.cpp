@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/core/parallel.h"
 
+#include "slabhull/core/progress.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -33,7 +35,10 @@ void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
     const std::size_t piece = std::max<std::size_t>(1, grain);
     const std::size_t pieces = (count + piece - 1) / piece;
-    const auto run_piece = [&](std::size_t k) { body(k * piece, std::min(count, (k + 1) * piece)); };
+    const auto run_piece = [&](std::size_t k) {
+        go_on();
+        body(k * piece, std::min(count, (k + 1) * piece));
+    };
 
     const std::size_t threads = std::min(pieces, static_cast<std::size_t>(thread_count()));
     if (threads <= 1) {
@@ -62,7 +67,10 @@ void parallel_for(std::size_t count, std::size_t grain,
     };
     std::vector<std::jthread> team;
     for (std::size_t i = 1; i < threads; ++i) {
-        team.emplace_back(work);
+        team.emplace_back([&work, watch = detail::current_watch()] {
+            detail::exchange_watch(watch);
+            work();
+        });
     }
     work();
     team.clear(); // joins

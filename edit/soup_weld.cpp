@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/hash.h"
 #include "slabhull/edit/soup_edit.h"
 
 #include "edit/soup_cells.h"
@@ -6,8 +7,8 @@
 #include "slabhull/topology/adjacency.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <unordered_map>
 
 namespace slabhull {
@@ -23,10 +24,7 @@ struct PlaceHash {
     std::size_t operator()(const Place& place) const {
         std::uint64_t hash = 0;
         for (const double x : place) {
-            std::uint64_t bits = 0;
-            std::memcpy(&bits, &x, sizeof bits);
-            hash = (hash ^ bits) * 0x9e3779b97f4a7c15U;
-            hash ^= hash >> 32;
+            hash = combined_hash(hash, std::bit_cast<std::uint64_t>(x));
         }
         return hash;
     }

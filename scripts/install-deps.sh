@@ -2,6 +2,7 @@
 # Installs the Debian packages of scripts/packages.txt that are missing. Asks for root only if one is.
 #   scripts/install-deps.sh          what the build needs
 #   scripts/install-deps.sh --test   what the tests need, too
+#   scripts/install-deps.sh --bare   what scripts/bare.sh needs
 set -euo pipefail
 list=$(dirname "$0")/packages.txt
 want=${1:-}
@@ -35,6 +36,10 @@ install_missing() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
+if [[ $want == --bare ]]; then
+    install_missing $(packages_under ': bare$')
+    exit
+fi
 needed=$(packages_under ' ---$')
 if [[ $want == --test ]]; then
     needed+=" $(packages_under ': test$')"

@@ -87,7 +87,7 @@ StudyRow study(const Case& the_case, const std::optional<std::filesystem::path>&
     row.boundary_facets = boundary.facet_count();
     row.centres = slab.hull.side_points - boundary.vertex_count() * (row.layers - 1);
 
-    const HullReport report = check_hull<D>(columns_of(slab.hull));
+    const HullReport report = check_hull<D>(slab.hull);
     clock.book("checking");
     if (!report.clean()) {
         throw GeometryError(fmt::format("the hull of {}, level {}, has {} defects:\n{}", row.experiment,

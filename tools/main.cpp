@@ -3,7 +3,9 @@
 
 #include "slabhull/cases/run.h"
 #include "slabhull/core/error.h"
+#include "slabhull/core/progress.h"
 
+#include <atomic>
 #include <csignal>
 #include <fmt/format.h>
 #include <new>
@@ -18,10 +20,35 @@ int complain(const std::string& text, int exit_code) {
     return exit_code;
 }
 
+std::atomic<int> stop_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler writes it");
+
+/// The first one asks for an orderly end, within a second; the next one ends the process at once.
+void ask_to_stop(int number) {
+    if (stop_signal.exchange(number) != 0) {
+        std::signal(number, SIG_DFL);
+        std::raise(number);
+    }
+}
+
+/// Not where the signal is ignored already, as nohup and shells in the background do.
+void answer_signal(int number) {
+    struct sigaction present {};
+    if (sigaction(number, nullptr, &present) == 0 && present.sa_handler != SIG_IGN) {
+        struct sigaction action {};
+        action.sa_handler = ask_to_stop;
+        sigemptyset(&action.sa_mask);
+        sigaction(number, &action, nullptr);
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN); // a file size limit becomes an error message, like a full disk
+    answer_signal(SIGINT);
+    answer_signal(SIGTERM);
+    const slabhull::ProgressScope scope{[](const std::string&) { return stop_signal == 0; }};
     CLI::App program{"Space-time hulls of moving domains: closed, conforming, checked"};
     program.set_version_flag("--version", slabhull::version());
     program.require_subcommand(1);
@@ -40,6 +67,11 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         program.exit(error);
         return wrong_usage;
+    } catch (const slabhull::Interrupted&) {
+        constexpr int by_signal = 128;
+        return complain(
+            "interrupted; no file is half-written. build --resume goes on after the last whole slab",
+            by_signal + stop_signal);
     } catch (const slabhull::Error& error) {
         return complain(error.what(), static_cast<int>(error.failure()));
     } catch (const std::bad_alloc&) {

@@ -74,7 +74,7 @@ std::vector<Split> parsed_splits(const std::string& text, const Case& the_case) 
     return splits;
 }
 
-/// The cases of one experiment: split by split, level by level. For "all", levels that it has not are left
+/// The cases of one experiment: split by split, level by level. For "all", levels that do not exist are left
 /// out.
 void add_cases(std::vector<Case>& cases, const std::string& name, LevelRange levels,
                const StudyOptions& options) {

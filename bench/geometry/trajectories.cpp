@@ -121,7 +121,7 @@ void trajectories(benchmark::State& state, const MotionPointer<3>& motion, bool 
         const SpatialMesh<3> terminating =
             terminating_cap<3>(sweep, {sweep.positions.back(), initial.cells, initial.neighbors}, ids);
         const Hull<3> hull = stitch<3>(initial, sweep, terminating, {Split::C}, ids);
-        const bool clean = check_hull<3>(columns_of(hull)).clean();
+        const bool clean = check_hull<3>(hull).clean();
         const double end = processor_seconds();
         if (!clean || error_of(sweep) > 1e-4) {
             state.SkipWithError("the hull has defects, or the paths went astray");

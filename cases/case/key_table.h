@@ -57,7 +57,7 @@ public:
 
     /// Throws UsageError: at `key` of this table, `expected` was expected.
     [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
-    /// Throws UsageError for the first key that nobody asked for, naming the nearest known one.
+    /// Throws UsageError for the first unknown key and names the nearest known one.
     void require_all_known() const;
 
 private:

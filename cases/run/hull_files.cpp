@@ -87,7 +87,7 @@ private:
         const std::size_t begin = which * block;
         const std::size_t end = std::min(hull_.points.size(), begin + block);
         std::fill(cell_.begin(), cell_.end(), no_index);
-        for (const Index stretch : stretches_.naming(begin, end)) {
+        for (const Index stretch : stretches_.using_vertices(begin, end)) {
             stretches_.each_cell(stretch, [&](std::size_t c) {
                 for (const Index v : hull_.cells[c]) {
                     if (begin <= v && v < end) {

@@ -3,6 +3,7 @@
 
 #include "slabhull/core/message.h"
 #include "slabhull/io/soup.h"
+#include "slabhull/slab/domain.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <span>
@@ -18,11 +19,10 @@ Point<D> point_in_space(const io::Soup& soup, std::size_t v);
 template<int D>
 Surface<D> surface_of_soup(const io::Soup& soup, const Patch& patch);
 
-/// The D-simplices of a soup as the mesh of a domain, in the file's order: used points only, cells positive,
-/// patches from the physical groups of the boundary facets. Facets in no group become the patch "boundary",
-/// with a warning that counts them. Throws InputError naming cells and facets by the file's numbers:
-/// inverted, degenerate, overlapping cells, a boundary that is not one.
+/// The D-simplices of a soup as a domain, see make_domain(): in the file's order, used points only, patches
+/// from the physical groups of the boundary facets. Warns of boundary facets in no group. Errors name cells
+/// and facets by the file's numbers.
 template<int D>
-SpatialMesh<D> domain_of_soup(const io::Soup& soup, const Listener& listener);
+Domain<D> domain_of_soup(const io::Soup& soup, const IdCounter& ids, const Listener& listener);
 
 } // namespace slabhull

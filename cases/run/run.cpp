@@ -9,6 +9,8 @@
 #include "slabhull/cases/settings.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/progress.h"
+#include "slabhull/core/version.h"
 #include "slabhull/io/files.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/march.h"
@@ -140,6 +142,7 @@ public:
             }
         } catch (const Error&) {
             if (result_.files.size() > before) {
+                const ProgressScope to_the_end{{}};
                 try {
                     write_overview();
                 } catch (const OutputError&) { // what stopped the run says more
@@ -158,13 +161,12 @@ private:
     void begin() {
         listener_.progress("initial cap", 0);
         StageClock clock;
-        IdCounter ids;
-        SpatialMesh<D> cap = initial_cap<D>(case_, ids, listener_, clock);
-        initial_ = report_of_initial(cap, clock);
-        start(march_from<D>(std::move(cap), case_.start, ids));
+        Domain<D> domain = initial_domain<D>(case_, {}, listener_, clock);
+        initial_ = report_of_initial(domain.mesh, clock);
+        start(march_from<D>(std::move(domain), case_.start));
     }
 
-    /// False when there is nothing to go on from.
+    /// False when there is no checkpoint to go on from.
     bool resume() {
         const auto path = path_of(checkpoint_name);
         if (!std::filesystem::exists(path)) {
@@ -200,7 +202,7 @@ private:
         warn_of_layers(slab);
         SlabFiles files;
         begin_writing(slab, files); // the disk is slow: it works while the hull is checked
-        const HullReport checked = check_hull<D>(columns_of(slab.hull));
+        const HullReport checked = check_hull<D>(slab.hull);
         clock.book("checking");
         if (!checked.clean()) {
             throw GeometryError(fmt::format("the hull of slab {} has {} defects and was not written:\n{}",

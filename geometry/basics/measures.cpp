@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/measures.h"
 
+#include "core/pieces.h"
+
 #include "slabhull/core/parallel.h"
 
 #include "geometry/basics/vector_algebra.h"
@@ -91,16 +93,15 @@ CosineRange cosines(const std::array<std::array<double, N>, D + 1>& corners) {
 /// Sums `add(c, sums)` over cells in fixed pieces, then the pieces in order.
 template<class Sums, class Add>
 Sums sum_by_pieces(std::size_t count, const Sums& zero, const Add& add) {
-    std::vector<Sums> pieces((count + cells_per_piece - 1) / cells_per_piece, zero);
-    parallel_for(count, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+    const auto sum_of = [&](std::size_t begin, std::size_t end, Sums& piece) {
         Sums sums = zero;
         for (std::size_t c = begin; c < end; ++c) {
             add(c, sums);
         }
-        pieces[begin / cells_per_piece] = sums;
-    });
+        piece = sums;
+    };
     Sums total = zero;
-    for (const Sums& piece : pieces) {
+    for (const Sums& piece : parallel_pieces<Sums>(count, cells_per_piece, sum_of, zero)) {
         for (std::size_t g = 0; g < total.size(); ++g) {
             total[g].add(piece[g]);
         }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/embedding.h"
 
+#include "core/pieces.h"
+
 #include "geometry/embedding/box_tree.h"
 #include "geometry/embedding/facet_pair.h"
 
@@ -55,13 +57,11 @@ std::vector<Crossing<D>> find_crossings(const Surface<D>& surface, std::size_t l
     std::vector<Crossing<D>> all = degenerate_facets(boxes);
     const BoxTree<D> tree{boxes};
     constexpr std::size_t grain = 256;
-    std::vector<std::vector<Crossing<D>>> pieces((tree.blocks() + grain - 1) / grain);
-    parallel_for(tree.blocks(), grain, [&](std::size_t begin, std::size_t end) {
-        pieces[begin / grain] = crossings_from(surface, tree, begin, end, limit);
-    });
-    for (const auto& piece : pieces) {
-        all.insert(all.end(), piece.begin(), piece.end());
-    }
+    const auto found = parallel_gather<Crossing<D>>(
+        tree.blocks(), grain, [&](std::size_t begin, std::size_t end, std::vector<Crossing<D>>& piece) {
+            piece = crossings_from(surface, tree, begin, end, limit);
+        });
+    all.insert(all.end(), found.begin(), found.end());
     std::sort(all.begin(), all.end(), [](const Crossing<D>& a, const Crossing<D>& b) {
         return std::tie(a.first, a.second) < std::tie(b.first, b.second);
     });

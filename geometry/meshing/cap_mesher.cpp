@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/cap_mesher.h"
 
+#include "core/pieces.h"
+
 #include "geometry/basics/predicates.h"
 #include "geometry/embedding/facet_names.h"
 
@@ -211,14 +213,14 @@ void CapInspection<D>::inspect_cell(Index cell, CellFindings<D>& findings) const
 template<int D>
 CellFindings<D> CapInspection<D>::inspect_cells() const {
     constexpr std::size_t grain = 1 << 14;
-    std::vector<CellFindings<D>> pieces((mesh_.cells.size() + grain - 1) / grain);
-    parallel_for(mesh_.cells.size(), grain, [&](std::size_t begin, std::size_t end) {
+    const auto inspect = [this](std::size_t begin, std::size_t end, CellFindings<D>& piece) {
         for (std::size_t cell = begin; cell < end; ++cell) {
-            inspect_cell(static_cast<Index>(cell), pieces[begin / grain]);
+            inspect_cell(static_cast<Index>(cell), piece);
         }
-    });
+    };
     CellFindings<D> all;
-    for (const CellFindings<D>& piece : pieces) {
+    for (const CellFindings<D>& piece :
+         parallel_pieces<CellFindings<D>>(mesh_.cells.size(), grain, inspect)) {
         all.append(piece);
     }
     return all;

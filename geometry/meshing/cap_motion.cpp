@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/cap_motion.h"
 
+#include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/geometry/affine.h"
 #include "slabhull/geometry/measures.h"
@@ -11,8 +12,8 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <vector>
 
@@ -140,13 +141,27 @@ private:
     Array<Lanes> rest_; ///< displacement but for the affine part, in this unit
 };
 
+void require_targets(std::size_t points, std::span<const Index> boundary, std::size_t targets) {
+    if (boundary.empty() || boundary.size() != targets) {
+        throw UsageError{
+            fmt::format("{} boundary vertices of a cap were given {} targets", boundary.size(), targets)};
+    }
+    const auto beyond =
+        std::find_if(boundary.begin(), boundary.end(), [points](Index v) { return v >= points; });
+    if (beyond != boundary.end()) {
+        throw UsageError{
+            fmt::format("a boundary vertex of a cap is {}, but it has {} points", *beyond, points),
+            {{"vertex", *beyond, ""}}};
+    }
+}
+
 } // namespace
 
 template<int D>
 MovedCap<D> move_cap(std::span<const Point<D>> points, std::span<const Simplex<D>> cells,
                      std::span<const Index> boundary, std::span<const Point<D>> targets,
                      const CapMotionOptions& options) {
-    assert(!boundary.empty() && boundary.size() == targets.size());
+    require_targets(points.size(), boundary, targets.size());
     const Displacements<D> wanted = displacements<D>(points, boundary, targets);
     CapMover<D> mover{points, cells, wanted};
     MovedCap<D> result;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/meshing/conjugate_gradients.h"
 
+#include "core/pieces.h"
+
 #include "slabhull/core/parallel.h"
 
 #include <algorithm>
@@ -40,18 +42,17 @@ private:
     /// Sums what body(v) returns over the free vertices.
     template<class Body>
     Sums over_free(const Body& body) {
-        std::vector<Sums> pieces((x_.size() + rows_per_piece - 1) / rows_per_piece, Sums::Zero());
-        parallel_for(x_.size(), rows_per_piece, [&](std::size_t begin, std::size_t end) {
+        const auto sum_of = [&](std::size_t begin, std::size_t end, Sums& piece) {
             Sums sum = Sums::Zero();
             for (std::size_t v = begin; v < end; ++v) {
                 if (matrix_.is_free(v)) {
                     sum += body(v).template cast<double>();
                 }
             }
-            pieces[begin / rows_per_piece] = sum;
-        });
+            piece = sum;
+        };
         Sums total = Sums::Zero();
-        for (const Sums& piece : pieces) {
+        for (const Sums& piece : parallel_pieces<Sums>(x_.size(), rows_per_piece, sum_of, Sums::Zero())) {
             total += piece;
         }
         return total;

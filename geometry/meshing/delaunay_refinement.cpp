@@ -5,6 +5,7 @@
 #include "geometry/meshing/triangle_shape.h"
 #include "geometry/meshing/vertex_star.h"
 
+#include "slabhull/core/progress.h"
 #include "slabhull/geometry/measures.h"
 
 #include <algorithm>
@@ -115,6 +116,7 @@ private:
 
     bool take(Queue& queue, Index& cell) {
         while (queue.head < queue.entries.size()) {
+            go_on();
             const Queue::Entry entry = queue.entries[queue.head++];
             if (version_[entry.cell] == entry.version) {
                 cell = entry.cell;

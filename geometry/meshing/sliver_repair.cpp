@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/meshing/sliver_repair.h"
 
+#include "core/pieces.h"
+
 #include "geometry/basics/predicates.h"
 #include "geometry/basics/vector_algebra.h"
 
@@ -37,19 +39,15 @@ public:
 private:
     std::vector<Index> find() const {
         constexpr std::size_t grain = 1 << 14;
-        std::vector<std::vector<Index>> pieces((mesh_.cells.size() + grain - 1) / grain);
-        parallel_for(mesh_.cells.size(), grain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t cell = begin; cell < end; ++cell) {
-                if (angle(static_cast<Index>(cell)) < wanted_) {
-                    pieces[begin / grain].push_back(static_cast<Index>(cell));
+        return parallel_gather<Index>(
+            mesh_.cells.size(), grain,
+            [this](std::size_t begin, std::size_t end, std::vector<Index>& slivers) {
+                for (std::size_t cell = begin; cell < end; ++cell) {
+                    if (angle(static_cast<Index>(cell)) < wanted_) {
+                        slivers.push_back(static_cast<Index>(cell));
+                    }
                 }
-            }
-        });
-        std::vector<Index> all;
-        for (const std::vector<Index>& piece : pieces) {
-            all.insert(all.end(), piece.begin(), piece.end());
-        }
-        return all;
+            });
     }
 
     void repair(Index cell) {

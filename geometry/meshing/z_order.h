@@ -11,8 +11,8 @@
 
 namespace slabhull {
 
-/// Places in the plane or in space along a Z curve (Morton order): what is near in the order is near in
-/// space.
+/// Places in the plane or in space along a Z curve (Morton order): points that are near in the order are near
+/// in space.
 template<int D>
 class ZOrder {
     static_assert(D == 2 || D == 3);

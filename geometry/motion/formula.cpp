@@ -4,6 +4,7 @@
 // "w*(x-0.5)*(y+t)+z^2").
 #include "slabhull/geometry/motion.h"
 
+#include "core/scratch_pool.h"
 #include "geometry/basics/vector_algebra.h"
 
 #include "slabhull/core/error.h"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -136,7 +136,7 @@ class FormulaVelocity final : public Motion<D> {
 public:
     FormulaVelocity(const std::array<std::string, D>& formulas, const Constants& constants)
         : formulas_{formulas}, constants_{constants} {
-        give_back(borrow()); // finds mistakes in the formulas now
+        evaluators_.give_back(borrow()); // finds mistakes in the formulas now
     }
 
     void velocity(std::span<const Point<D>> x, double t, std::span<Point<D>> v) const override {
@@ -148,7 +148,7 @@ public:
                 break;
             }
         }
-        give_back(std::move(evaluator));
+        evaluators_.give_back(std::move(evaluator));
         if (i < x.size()) {
             report_infinite(x[i], t, v[i]);
         }
@@ -158,19 +158,9 @@ public:
 private:
     using EvaluatorPointer = std::unique_ptr<Evaluator<D>>;
 
-    /// An evaluator that no other thread is using, compiled (some 40 microseconds) if there is none.
+    /// An evaluator that no other thread is using; compiling one takes some 40 microseconds.
     EvaluatorPointer borrow() const {
-        const std::lock_guard guard{idle_lock_};
-        if (idle_.empty()) {
-            return std::make_unique<Evaluator<D>>(formulas_, constants_);
-        }
-        EvaluatorPointer evaluator = std::move(idle_.back());
-        idle_.pop_back();
-        return evaluator;
-    }
-    void give_back(EvaluatorPointer evaluator) const {
-        const std::lock_guard guard{idle_lock_};
-        idle_.push_back(std::move(evaluator));
+        return evaluators_.take([this] { return Evaluator<D>{formulas_, constants_}; });
     }
 
     [[noreturn]] void report_infinite(const Point<D>& x, double t, const Point<D>& v) const {
@@ -184,8 +174,7 @@ private:
 
     std::array<std::string, D> formulas_;
     Constants constants_;
-    mutable std::mutex idle_lock_;
-    mutable std::vector<EvaluatorPointer> idle_;
+    mutable ScratchPool<Evaluator<D>> evaluators_;
 };
 
 } // namespace

@@ -218,7 +218,7 @@ struct Piece {
     }
 };
 
-/// Answers for all pieces, one thread at a time. Probes of spline faces are dear to make, so each is made at
+/// Answers for all pieces, one thread at a time. Probes of spline faces are slow to make, so each is made at
 /// the first question that needs it.
 class Probes {
 public:

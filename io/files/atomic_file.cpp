@@ -3,6 +3,7 @@
 
 #include "io/files/block_writer.h"
 #include "slabhull/core/error.h"
+#include "slabhull/core/progress.h"
 #include "slabhull/io/files.h"
 
 #include <algorithm>
@@ -106,6 +107,7 @@ void AtomicFile::advance(std::size_t size) {
     }
     blocks_->advance(size);
     check_blocks();
+    go_on();
 }
 
 void AtomicFile::check_blocks() const {

@@ -11,7 +11,7 @@ namespace slabhull::io {
 enum class Compressor { none, zlib, lz4 };
 
 /// Most bytes that so many packed ones can stand for, by the design of their format: whoever claims more is
-/// not believed.
+/// not trusted.
 std::uint64_t most_unpacked(Compressor compressor, std::uint64_t packed);
 
 /// Unpacks one block (a zlib stream or an LZ4 block) to `out`. False unless it is whole and of exactly

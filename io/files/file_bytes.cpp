@@ -2,6 +2,7 @@
 #include "io/files/file_bytes.h"
 
 #include "io/files/file_cursor.h"
+#include "slabhull/core/progress.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -111,6 +112,7 @@ std::size_t FileBytes::count_lines(std::size_t end) const {
 std::size_t FileBytes::read(char* out, std::size_t begin, std::size_t end) const {
     std::size_t at = begin;
     while (at < end) {
+        go_on();
         const ssize_t got = ::pread(descriptor_, out + (at - begin), end - at, static_cast<off_t>(at));
         if (got < 0 && errno != EINTR) {
             fail(std::strerror(errno));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/files/file_cursor.h"
 
+#include "slabhull/core/progress.h"
 #include "slabhull/core/text.h"
 
 #include <algorithm>
@@ -48,6 +49,7 @@ Array<char> read_bytes(const std::filesystem::path& path) {
     Array<char> bytes(std::max(least, static_cast<std::size_t>(std::max<off_t>(0, status.st_size)) + 1));
     std::size_t size = 0;
     while (true) {
+        go_on();
         const ssize_t got = ::read(file.number(), bytes.data() + size, bytes.size() - size);
         if (got < 0 && errno != EINTR) {
             fail_reading(path);

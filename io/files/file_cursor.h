@@ -87,7 +87,7 @@ public:
     const char* take(std::size_t size, const char* what);
 
     /// Throws unless `count` things of at least `least_size` bytes each can still follow: a claimed count is
-    /// believed only after this.
+    /// trusted only after this.
     std::size_t plausible(std::uint64_t count, std::size_t least_size, const char* what) const;
 
     /// Throws InputError: file, place, text.

@@ -43,7 +43,7 @@ void require_rows(const char* section, const std::vector<DataColumn>& columns) {
     for (const DataColumn& data : columns) {
         const std::size_t rows = rows_of(data);
         if (rows > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-            throw LimitError(
+            throw FormatLimit(
                 fmt::format("\"{}\" has {} rows, but ${} in an MSH file counts in 32 bits; write VTU",
                             data.name, rows, section));
         }

@@ -74,7 +74,7 @@ struct MshContent {
 
 void write_msh(AtomicFile& file, const MshContent& content, const MshOptions& options);
 
-/// Throws LimitError where data have more rows than MSH can count.
+/// Throws FormatLimit where data have more rows than MSH can count.
 void require_msh_rows(const MeshColumns& mesh);
 
 } // namespace slabhull::io

@@ -99,7 +99,8 @@ private:
 
     static void require_range(std::size_t count, const char* what) {
         if (count > static_cast<std::size_t>(std::numeric_limits<Tag>::max())) {
-            throw LimitError(fmt::format("{} {}, but MSH 2.2 counts in 32 bits; write MSH 4.1", count, what));
+            throw FormatLimit(
+                fmt::format("{} {}, but MSH 2.2 counts in 32 bits; write MSH 4.1", count, what));
         }
     }
 

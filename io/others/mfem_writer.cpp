@@ -36,7 +36,7 @@ template<int D>
 void require_distinct(Simplex<D> cell, std::size_t row) {
     std::sort(cell.begin(), cell.end());
     if (const auto twice = std::adjacent_find(cell.begin(), cell.end()); twice != cell.end()) {
-        throw GeometryError(
+        throw FormatLimit(
             fmt::format("cell {} has the vertex {} twice, so that the boundary, which MFEM meshes "
                         "need, is not defined; remove the cell",
                         row, *twice));
@@ -129,8 +129,8 @@ void write_vertices(TextStream& out, const MeshColumns& mesh) {
 void write_mfem(AtomicFile& file, const MeshColumns& mesh) {
     constexpr std::size_t limit = std::numeric_limits<std::int32_t>::max();
     if (mesh.points.rows() > limit || mesh.cells.rows() > limit) {
-        throw LimitError(fmt::format("MFEM counts in 32 bits, but this mesh has {} vertices and {} cells",
-                                     mesh.points.rows(), mesh.cells.rows()));
+        throw FormatLimit(fmt::format("MFEM counts in 32 bits, but this mesh has {} vertices and {} cells",
+                                      mesh.points.rows(), mesh.cells.rows()));
     }
     TextStream out{file};
     out.put(fmt::format("MFEM mesh v1.0\n\ndimension\n{}\n", mesh.dimension));

@@ -170,7 +170,7 @@ private:
                 ++found;
             }
         }
-        require(found == 3, "a vertex has not the properties x, y, z");
+        require(found == 3, "a vertex lacks the properties x, y, z");
         guarded_.points.push_back(point);
     }
 
@@ -186,7 +186,7 @@ private:
                 skip(property);
             }
         }
-        require(has_corners || element.name != "face", "a face has not the property vertex_indices");
+        require(has_corners || element.name != "face", "a face lacks the property vertex_indices");
     }
 
     void skip(const Property& property) {

@@ -28,8 +28,8 @@ void require_triangles(const MeshColumns& mesh, const char* format) {
 
 void require_count(std::size_t count, std::size_t limit, const char* format, const char* what) {
     if (count > limit) {
-        throw LimitError(fmt::format("{} files hold up to {} {}, but this mesh has {}; write VTU", format,
-                                     limit, what, count));
+        throw FormatLimit(fmt::format("{} files hold up to {} {}, but this mesh has {}; write VTU", format,
+                                      limit, what, count));
     }
 }
 
@@ -92,9 +92,9 @@ void require_single(const Column<double>& points) {
     for_each_row(points, 0, points.rows(), [](std::size_t row, const double* x) {
         for (int k = 0; k < 3; ++k) {
             if (!(std::abs(x[k]) <= largest)) {
-                throw LimitError(fmt::format("vertex {} has the coordinate {}, which single precision, all "
-                                             "that STL has, cannot hold; write PLY",
-                                             row, x[k]));
+                throw FormatLimit(fmt::format("vertex {} has the coordinate {}, which single precision, all "
+                                              "that STL has, cannot hold; write PLY",
+                                              row, x[k]));
             }
         }
     });

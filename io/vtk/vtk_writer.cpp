@@ -111,9 +111,9 @@ void require_countable(const MeshColumns& mesh) {
     const std::size_t row = static_cast<std::size_t>(mesh.dimension) + 2;
     constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
     if (cells > most / row || mesh.points.rows() > most) {
-        throw LimitError(fmt::format("{} cells and {} points are more than the 32 bits of a legacy VTK file "
-                                     "count; write VTU",
-                                     cells, mesh.points.rows()));
+        throw FormatLimit(fmt::format("{} cells and {} points are more than the 32 bits of a legacy VTK file "
+                                      "count; write VTU",
+                                      cells, mesh.points.rows()));
     }
 }
 

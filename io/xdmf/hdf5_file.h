@@ -40,7 +40,7 @@ private:
 
 class Hdf5Dataset;
 
-/// A file to be read. Throws InputError naming the file and the dataset. Damaged files are not believed: a
+/// A file to be read. Throws InputError naming the file and the dataset. Damaged files are not trusted: a
 /// dataset must have its bytes in the file, packed at most as deflate can, and no byte is read twice. Refused
 /// are links to other files, data elsewhere, filters other than deflate, shuffle and checksums, and numbers
 /// other than integers and reals.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/check/hull_view.h"
 
+#include "core/pieces.h"
+
 #include "slab/check/check_shape.h"
 
 #include <cmath>
@@ -53,10 +55,11 @@ void survey_piece(const HullView<D>& view, double sign, std::size_t begin, std::
 
 template<int D>
 CellSurvey<D> survey_cells(const HullView<D>& view, double sign) {
-    std::vector<PieceOfSurvey<D>> pieces((view.cells().size() + cells_per_piece - 1) / cells_per_piece);
-    parallel_for(view.cells().size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
-        survey_piece(view, sign, begin, end, pieces[begin / cells_per_piece]);
-    });
+    const auto pieces =
+        parallel_pieces<PieceOfSurvey<D>>(view.cells().size(), cells_per_piece,
+                                          [&](std::size_t begin, std::size_t end, PieceOfSurvey<D>& piece) {
+                                              survey_piece(view, sign, begin, end, piece);
+                                          });
     CellSurvey<D> survey;
     std::array<MeasureSums<D>, 3> sums;
     for (const PieceOfSurvey<D>& piece : pieces) {

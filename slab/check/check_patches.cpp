@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/hash.h"
 #include "slab/check/hull_view.h"
+
+#include "core/pieces.h"
 
 #include <fmt/format.h>
 
@@ -38,29 +41,29 @@ TrackSet<D> tracks_of(const HullView<D>& view, std::size_t cell, std::size_t& si
 
 /// What a side cell says about the facet it stands on.
 template<int D>
-struct Vote {
+struct PatchClaim {
     TrackSet<D> tracks;
     PatchNumber patch;
     Index cell;
-    friend auto operator<=>(const Vote&, const Vote&) = default;
+    friend auto operator<=>(const PatchClaim&, const PatchClaim&) = default;
 };
 
 /// The patch of a facet or a part of one, by its tracks.
 template<int D>
-struct Ruling {
+struct FacetPatch {
     TrackSet<D> tracks;
     PatchNumber patch;
-    friend auto operator<=>(const Ruling&, const Ruling&) = default;
+    friend auto operator<=>(const FacetPatch&, const FacetPatch&) = default;
 };
 
 template<int D>
-using Rulings = std::vector<Ruling<D>>;
+using FacetPatches = std::vector<FacetPatch<D>>;
 
-/// Calls full(vote) for side cells that have all tracks of a facet, and partial(vote) for the others, in
-/// [begin, end). Cells of a side that is not made of prisms may have no vote.
+/// Calls full(claim) for side cells that have all tracks of a facet, and partial(claim) for the others, in
+/// [begin, end). Cells of a side that is not made of prisms may have no claim.
 template<int D, class Full, class Partial>
-void each_vote(const HullView<D>& view, std::size_t begin, std::size_t end, const Full& full,
-               const Partial& partial) {
+void for_each_claim(const HullView<D>& view, std::size_t begin, std::size_t end, const Full& full,
+                    const Partial& partial) {
     std::vector<std::int64_t> patch(end - begin);
     view.hull.patch.fill(begin, end, patch.data());
     for (std::size_t c = begin; c < end; ++c) {
@@ -69,11 +72,11 @@ void each_vote(const HullView<D>& view, std::size_t begin, std::size_t end, cons
         }
         std::size_t size = 0;
         const TrackSet<D> tracks = tracks_of(view, c, size);
-        const Vote<D> vote{tracks, static_cast<PatchNumber>(patch[c - begin]), static_cast<Index>(c)};
+        const PatchClaim<D> claim{tracks, static_cast<PatchNumber>(patch[c - begin]), static_cast<Index>(c)};
         if (size == D) {
-            full(vote);
+            full(claim);
         } else if (size >= 1 && size < D) {
-            partial(vote);
+            partial(claim);
         }
     }
 }
@@ -84,62 +87,58 @@ void sort_out(std::vector<T>& values) {
     values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-constexpr std::size_t cells_per_ruling = 1 << 14;
+constexpr std::size_t cells_per_reading = 1 << 14;
 
 /// The patches of facets, without the cells that say so: a block of cells after the other, as there are many
 /// layers over one facet.
 template<int D>
-Rulings<D> patches_of_facets(const HullView<D>& view) {
+FacetPatches<D> patches_of_facets(const HullView<D>& view) {
     constexpr std::size_t block = std::size_t{1} << 20;
-    Rulings<D> all;
+    FacetPatches<D> all;
     for (std::size_t first = 0; first < view.cells().size(); first += block) {
         const std::size_t count = std::min(block, view.cells().size() - first);
-        std::vector<Rulings<D>> pieces((count + cells_per_ruling - 1) / cells_per_ruling);
-        parallel_for(count, cells_per_ruling, [&](std::size_t begin, std::size_t end) {
-            Rulings<D>& piece = pieces[begin / cells_per_ruling];
-            each_vote(
+        const auto patches_of_piece = [&](std::size_t begin, std::size_t end, FacetPatches<D>& piece) {
+            for_each_claim(
                 view, first + begin, first + end,
-                [&](const Vote<D>& vote) { // a prism has several, one after the other
-                    if (const Ruling<D> ruling{vote.tracks, vote.patch};
-                        piece.empty() || piece.back() != ruling) {
-                        piece.push_back(ruling);
+                [&](const PatchClaim<D>& claim) { // a prism has several, one after the other
+                    if (const FacetPatch<D> facet{claim.tracks, claim.patch};
+                        piece.empty() || piece.back() != facet) {
+                        piece.push_back(facet);
                     }
                 },
-                [](const Vote<D>&) {});
+                [](const PatchClaim<D>&) {});
             sort_out(piece);
-        });
-        const std::size_t known = all.size();
-        for (const Rulings<D>& piece : pieces) {
-            all.insert(all.end(), piece.begin(), piece.end());
-        }
-        if (all.size() > known) {
+        };
+        const auto found = parallel_gather<FacetPatch<D>>(count, cells_per_reading, patches_of_piece);
+        if (!found.empty()) {
+            all.insert(all.end(), found.begin(), found.end());
             sort_out(all);
         }
     }
     return all;
 }
 
-/// Where facets have different patches: all votes about facets, sorted.
+/// Where facets have different patches: all claims about facets, sorted.
 template<int D>
-std::vector<Vote<D>> full_votes(const HullView<D>& view) {
-    std::vector<Vote<D>> votes;
-    each_vote(
-        view, 0, view.cells().size(), [&](const Vote<D>& vote) { votes.push_back(vote); },
-        [](const Vote<D>&) {});
-    std::sort(votes.begin(), votes.end());
-    return votes;
+std::vector<PatchClaim<D>> full_claims(const HullView<D>& view) {
+    std::vector<PatchClaim<D>> claims;
+    for_each_claim(
+        view, 0, view.cells().size(), [&](const PatchClaim<D>& claim) { claims.push_back(claim); },
+        [](const PatchClaim<D>&) {});
+    std::sort(claims.begin(), claims.end());
+    return claims;
 }
 
 template<int D>
-void report_disunity(std::span<const Vote<D>> column, Findings& findings) {
+void report_mismatches(std::span<const PatchClaim<D>> column, Findings& findings) {
     const PatchNumber first = column.front().patch;
     const PatchNumber last = column.back().patch;
     if (first == last) {
         return;
     }
     std::vector<Index> cells;
-    for (const Vote<D>& vote : column) {
-        cells.push_back(vote.cell);
+    for (const PatchClaim<D>& claim : column) {
+        cells.push_back(claim.cell);
     }
     std::string tracks;
     for (const TrackId track : column.front().tracks) {
@@ -155,10 +154,10 @@ void report_disunity(std::span<const Vote<D>> column, Findings& findings) {
 
 /// The patches of the facets that each set of tracks is part of.
 template<int D>
-Rulings<D> patches_of_parts(const Rulings<D>& facets) {
-    Rulings<D> parts;
+FacetPatches<D> patches_of_parts(const FacetPatches<D>& facets) {
+    FacetPatches<D> parts;
     parts.reserve(facets.size() * ((1u << D) - 2));
-    for (const Ruling<D>& facet : facets) {
+    for (const FacetPatch<D>& facet : facets) {
         for (unsigned chosen = 1; chosen + 1 < 1u << D; ++chosen) {
             TrackSet<D> part;
             part.fill(no_track);
@@ -176,12 +175,12 @@ Rulings<D> patches_of_parts(const Rulings<D>& facets) {
 
 /// Looks rulings up; remembers some that it found, as many cells in a row ask for the same few.
 template<int D>
-class RulingFinder {
+class FacetPatchFinder {
 public:
-    explicit RulingFinder(const Rulings<D>& all) : all_{all}, seen_(1 << 10) {}
+    explicit FacetPatchFinder(const FacetPatches<D>& all) : all_{all}, seen_(1 << 10) {}
 
-    bool has(const Ruling<D>& wanted) {
-        Ruling<D>& seen = seen_[hash(wanted) % seen_.size()];
+    bool has(const FacetPatch<D>& wanted) {
+        FacetPatch<D>& seen = seen_[hash(wanted) % seen_.size()];
         if (seen != wanted) {
             if (!std::binary_search(all_.begin(), all_.end(), wanted)) {
                 return false;
@@ -192,38 +191,33 @@ public:
     }
 
 private:
-    static std::size_t hash(const Ruling<D>& ruling) {
-        auto sum = static_cast<std::uint64_t>(ruling.patch);
-        for (const TrackId track : ruling.tracks) {
-            sum = (sum ^ static_cast<std::uint64_t>(track)) * 0x9E3779B97F4A7C15u;
-            sum ^= sum >> 32;
+    static std::size_t hash(const FacetPatch<D>& facet) {
+        auto sum = static_cast<std::uint64_t>(facet.patch);
+        for (const TrackId track : facet.tracks) {
+            sum = combined_hash(sum, static_cast<std::uint64_t>(track));
         }
         return sum;
     }
 
-    const Rulings<D>& all_;
-    Rulings<D> seen_; ///< at first of patch 0, which nobody asks for
+    const FacetPatches<D>& all_;
+    FacetPatches<D> seen_; ///< at first of patch 0, which nobody asks for
 };
 
 /// Cells whose tracks are part of no facet of their patch, ascending.
 template<int D>
-std::vector<Vote<D>> partial_votes_without(const HullView<D>& view, const Rulings<D>& parts) {
-    std::vector<std::vector<Vote<D>>> pieces((view.cells().size() + cells_per_ruling - 1) / cells_per_ruling);
-    parallel_for(view.cells().size(), cells_per_ruling, [&](std::size_t begin, std::size_t end) {
-        RulingFinder<D> finder{parts};
-        each_vote(
-            view, begin, end, [](const Vote<D>&) {},
-            [&](const Vote<D>& vote) {
-                if (!finder.has({vote.tracks, vote.patch})) {
-                    pieces[begin / cells_per_ruling].push_back(vote);
-                }
-            });
-    });
-    std::vector<Vote<D>> all;
-    for (const std::vector<Vote<D>>& piece : pieces) {
-        all.insert(all.end(), piece.begin(), piece.end());
-    }
-    return all;
+std::vector<PatchClaim<D>> partial_claims_without(const HullView<D>& view, const FacetPatches<D>& parts) {
+    return parallel_gather<PatchClaim<D>>(
+        view.cells().size(), cells_per_reading,
+        [&](std::size_t begin, std::size_t end, std::vector<PatchClaim<D>>& without) {
+            FacetPatchFinder<D> finder{parts};
+            for_each_claim(
+                view, begin, end, [](const PatchClaim<D>&) {},
+                [&](const PatchClaim<D>& claim) {
+                    if (!finder.has({claim.tracks, claim.patch})) {
+                        without.push_back(claim);
+                    }
+                });
+        });
 }
 
 /// How often each patch is claimed for side cells, and the first such cell.
@@ -236,7 +230,7 @@ template<int D>
 std::map<std::int64_t, PatchUse> count_side_patches(const HullView<D>& view) {
     std::map<std::int64_t, PatchUse> all;
     std::mutex lock;
-    parallel_for(view.cells().size(), cells_per_ruling, [&](std::size_t begin, std::size_t end) {
+    parallel_for(view.cells().size(), cells_per_reading, [&](std::size_t begin, std::size_t end) {
         std::vector<std::int64_t> patch(end - begin);
         view.hull.patch.fill(begin, end, patch.data());
         std::map<std::int64_t, PatchUse> found;
@@ -289,20 +283,22 @@ std::vector<PatchCount> check_patches(const HullView<D>& view, Findings& finding
 
 template<int D>
 void check_patch_columns(const HullView<D>& view, Findings& findings) {
-    const Rulings<D> facets = patches_of_facets(view);
-    const auto same_facet = [](const Ruling<D>& a, const Ruling<D>& b) { return a.tracks == b.tracks; };
+    const FacetPatches<D> facets = patches_of_facets(view);
+    const auto same_facet = [](const FacetPatch<D>& a, const FacetPatch<D>& b) {
+        return a.tracks == b.tracks;
+    };
     if (std::adjacent_find(facets.begin(), facets.end(), same_facet) != facets.end()) {
-        const std::vector<Vote<D>> votes = full_votes(view);
-        for (auto run = votes.begin(); run != votes.end();) {
-            const auto end = std::find_if(run, votes.end(),
-                                          [&](const Vote<D>& vote) { return vote.tracks != run->tracks; });
-            report_disunity<D>({run, end}, findings);
+        const std::vector<PatchClaim<D>> claims = full_claims(view);
+        for (auto run = claims.begin(); run != claims.end();) {
+            const auto end = std::find_if(
+                run, claims.end(), [&](const PatchClaim<D>& claim) { return claim.tracks != run->tracks; });
+            report_mismatches<D>({run, end}, findings);
             run = end;
         }
     }
-    for (const Vote<D>& vote : partial_votes_without<D>(view, patches_of_parts<D>(facets))) {
-        findings.cell(Defect::patch_mismatch, vote.cell,
-                      fmt::format("in patch {}, which no boundary facet below it has", vote.patch));
+    for (const PatchClaim<D>& claim : partial_claims_without<D>(view, patches_of_parts<D>(facets))) {
+        findings.cell(Defect::patch_mismatch, claim.cell,
+                      fmt::format("in patch {}, which no boundary facet below it has", claim.patch));
     }
 }
 

@@ -65,6 +65,7 @@ struct FoundRegions {
 
 template<int D>
 void find_regions(HullView<D>& view, FoundRegions& found) {
+    static_assert(select_grain % RegionList::cells_per_byte == 0, "no two threads write to one byte");
     view.region.reset(view.cells().size());
     found.flat = select(view.cells().size(), [&](std::size_t c) {
         const auto [first, last] = view.span_of(c);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/check/check_shape.h"
+#include "core/hash.h"
 
 #include <fmt/format.h>
 
@@ -55,7 +56,7 @@ template<std::size_t N>
 std::uint64_t fingerprint(const std::array<double, N>& point) {
     std::uint64_t hash = 0;
     for (const double x : point) {
-        hash = (std::rotl(hash, 25) ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15u;
+        hash = multiplied_hash(std::rotl(hash, 25) ^ std::bit_cast<std::uint64_t>(x + 0.0));
     }
     return hash ^ hash >> 32;
 }

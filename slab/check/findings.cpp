@@ -13,7 +13,7 @@ namespace {
 /// More names than this do not help; the star of an apex may have millions.
 constexpr std::size_t most_names = 16;
 
-constexpr std::array<std::string_view, defect_kinds> names{
+constexpr std::array<std::string_view, defect_kinds> defect_names{
     "no-cells",
     "column-length",
     "index-out-of-range",
@@ -79,7 +79,7 @@ std::string simplex_name(std::span<const Entity> vertices) {
 } // namespace
 
 std::string_view defect_name(Defect what) {
-    return names[static_cast<std::size_t>(what)];
+    return defect_names[static_cast<std::size_t>(what)];
 }
 
 std::size_t CheckResult::total() const {

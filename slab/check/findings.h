@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/pieces.h"
 #include "slabhull/core/column.h"
 #include "slabhull/core/id_runs.h"
 #include "slabhull/core/parallel.h"
@@ -56,23 +57,20 @@ private:
     const CheckOptions& options_;
 };
 
+/// Numbers that select() asks for in one thread, one after the other.
+constexpr std::size_t select_grain = 1 << 16;
+
 /// The numbers below `count` for which `bad` holds, ascending; asked in parallel.
 template<class Predicate>
 std::vector<Index> select(std::size_t count, const Predicate& bad) {
-    constexpr std::size_t grain = 1 << 16;
-    std::vector<std::vector<Index>> pieces((count + grain - 1) / grain);
-    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            if (bad(k)) {
-                pieces[begin / grain].push_back(static_cast<Index>(k));
-            }
-        }
-    });
-    std::vector<Index> all;
-    for (const std::vector<Index>& piece : pieces) {
-        all.insert(all.end(), piece.begin(), piece.end());
-    }
-    return all;
+    return parallel_gather<Index>(count, select_grain,
+                                  [&](std::size_t begin, std::size_t end, std::vector<Index>& found) {
+                                      for (std::size_t k = begin; k < end; ++k) {
+                                          if (bad(k)) {
+                                              found.push_back(static_cast<Index>(k));
+                                          }
+                                      }
+                                  });
 }
 
 /// The rows of a column for which bad(row, values) holds, ascending; asked in parallel.
@@ -80,21 +78,16 @@ template<class Predicate>
 std::vector<Index> select_rows(const Column<std::int64_t>& column, const Predicate& bad) {
     constexpr std::size_t grain = 1 << 14;
     const auto width = static_cast<std::size_t>(column.components());
-    std::vector<std::vector<Index>> pieces((column.rows() + grain - 1) / grain);
-    parallel_for(column.rows(), grain, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::int64_t> values((end - begin) * width);
-        column.fill(begin, end, values.data());
-        for (std::size_t row = begin; row < end; ++row) {
-            if (bad(row, values.data() + (row - begin) * width)) {
-                pieces[begin / grain].push_back(static_cast<Index>(row));
-            }
-        }
-    });
-    std::vector<Index> all;
-    for (const std::vector<Index>& piece : pieces) {
-        all.insert(all.end(), piece.begin(), piece.end());
-    }
-    return all;
+    return parallel_gather<Index>(column.rows(), grain,
+                                  [&](std::size_t begin, std::size_t end, std::vector<Index>& found) {
+                                      std::vector<std::int64_t> values((end - begin) * width);
+                                      column.fill(begin, end, values.data());
+                                      for (std::size_t row = begin; row < end; ++row) {
+                                          if (bad(row, values.data() + (row - begin) * width)) {
+                                              found.push_back(static_cast<Index>(row));
+                                          }
+                                      }
+                                  });
 }
 
 /// One row of a column.

@@ -15,21 +15,25 @@ namespace slabhull {
 /// The region of each cell, in two bits.
 class RegionList {
 public:
+    static constexpr std::size_t cells_per_byte = 4;
+
     /// All on the side.
-    void reset(std::size_t cells) { packed_.assign((cells + 3) / 4, 0b01010101); }
+    void reset(std::size_t cells) {
+        packed_.assign((cells + cells_per_byte - 1) / cells_per_byte, 0b01010101);
+    }
     bool empty() const { return packed_.empty(); }
     Region operator[](std::size_t cell) const {
-        return static_cast<Region>(packed_[cell / 4] >> shift(cell) & 3u);
+        return static_cast<Region>(packed_[cell / cells_per_byte] >> shift(cell) & 3u);
     }
-    /// Several threads at once must keep to whole fours of cells.
+    /// Several threads at once must each keep to whole bytes: cells_per_byte cells.
     void set(std::size_t cell, Region region) {
-        std::uint8_t& four = packed_[cell / 4];
+        std::uint8_t& four = packed_[cell / cells_per_byte];
         four = static_cast<std::uint8_t>((four & ~(3u << shift(cell))) | static_cast<unsigned>(region)
                                                                              << shift(cell));
     }
 
 private:
-    static unsigned shift(std::size_t cell) { return 2 * (cell % 4); }
+    static unsigned shift(std::size_t cell) { return 2 * (cell % cells_per_byte); }
 
     Array<std::uint8_t> packed_;
 };

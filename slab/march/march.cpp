@@ -14,6 +14,11 @@ MarchState<D> march_from(SpatialMesh<D> cap, double time, const IdCounter& ids) 
 }
 
 template<int D>
+MarchState<D> march_from(Domain<D> domain, double time) {
+    return march_from<D>(std::move(domain.mesh), time, domain.ids);
+}
+
+template<int D>
 void March<D>::require_times(const std::vector<double>& times) const {
     if (times.size() < 2 || times.front() != state_.time || !(times.front() < times.back())) {
         throw UsageError(
@@ -27,6 +32,7 @@ void March<D>::require_times(const std::vector<double>& times) const {
 template<int D>
 Slab<D> March<D>::propose(std::vector<double> times, StageClock& clock) const {
     require_times(times);
+    const ProgressScope scope{progress_ ? progress_ : [](const std::string&) { return true; }};
     return build_slab<D>(state_.cap, state_.boundary, state_.slab, std::move(times), settings_, state_.ids,
                          clock);
 }
@@ -40,6 +46,7 @@ Slab<D> March<D>::propose(std::vector<double> times) const {
 template<int D>
 Slab<D> March<D>::build(std::vector<double> times, StageClock& clock) {
     require_times(times);
+    const ProgressScope scope{progress_ ? progress_ : [](const std::string&) { return true; }};
     return build_slab<D>(std::move(state_.cap), state_.boundary, state_.slab, std::move(times), settings_,
                          state_.ids, clock);
 }
@@ -63,6 +70,8 @@ void March<D>::accept(Slab<D>&& slab) {
     ++state_.slab;
 }
 
+template MarchState<2> march_from<2>(Domain<2>, double);
+template MarchState<3> march_from<3>(Domain<3>, double);
 template MarchState<2> march_from<2>(SpatialMesh<2>, double, const IdCounter&);
 template MarchState<3> march_from<3>(SpatialMesh<3>, double, const IdCounter&);
 template class March<2>;

@@ -2,6 +2,7 @@
 #include "slabhull/slab/slab.h"
 
 #include "slab/march/cap_reuse.h"
+#include "slabhull/core/progress.h"
 #include "slabhull/slab/tangling.h"
 
 #include <fmt/format.h>
@@ -79,11 +80,15 @@ template<int D>
 Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock) {
     Slab<D> slab;
+    enter_stage("trajectories");
     Sweep<D> sweep = sweep_slab(boundary, initial.mesh(), std::move(times), settings, slab);
     clock.book("trajectories");
+    enter_stage("boundary check");
     require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
     clock.book("boundary check");
+    enter_stage("cap meshing");
     CapMesh<D> mesh = make_cap<D>(initial.mesh(), sweep, settings, slab, clock);
+    enter_stage("stitching");
     IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
     SpatialMesh<D> terminating = terminating_cap<D>(sweep, std::move(mesh), ids);
     slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/slice.h"
 
+#include "core/pieces.h"
+
 #include "slab/check/findings.h"
 #include "slab/slice/active_cells.h"
 #include "slab/slice/cut_table.h"
@@ -82,17 +84,12 @@ public:
 private:
     std::vector<CutFacet<D>> cut_cells(const Level& level, std::span<const Index> cells) const {
         constexpr std::size_t grain = 1 << 14;
-        std::vector<std::vector<CutFacet<D>>> pieces((cells.size() + grain - 1) / grain);
-        parallel_for(cells.size(), grain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k) {
-                cut_cell(level, cells[k], pieces[begin / grain]);
-            }
-        });
-        std::vector<CutFacet<D>> all;
-        for (const auto& piece : pieces) {
-            all.insert(all.end(), piece.begin(), piece.end());
-        }
-        return all;
+        return parallel_gather<CutFacet<D>>(
+            cells.size(), grain, [&](std::size_t begin, std::size_t end, std::vector<CutFacet<D>>& facets) {
+                for (std::size_t k = begin; k < end; ++k) {
+                    cut_cell(level, cells[k], facets);
+                }
+            });
     }
 
     void cut_cell(const Level& level, Index cell, std::vector<CutFacet<D>>& facets) const {

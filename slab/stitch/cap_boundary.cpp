@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/stitch/cap_boundary.h"
+#include "core/hash.h"
 
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
@@ -54,10 +55,9 @@ private:
     std::size_t hash(const Facet<D>& key) const {
         std::uint64_t sum = 0;
         for (const Index v : key) {
-            sum = (sum ^ v) * 0x9E3779B97F4A7C15u;
-            sum ^= sum >> 32;
+            sum = combined_hash(sum, v);
         }
-        return static_cast<std::size_t>((sum * 0x9E3779B97F4A7C15u) >> shift_);
+        return static_cast<std::size_t>(multiplied_hash(sum) >> shift_);
     }
 
     std::span<const Facet<D>> facets_;

@@ -10,7 +10,7 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::size_t prisms_per_piece = 1 << 12;
+constexpr std::size_t prisms_per_choice = 1 << 12;
 
 template<int D>
 class Chooser {
@@ -37,7 +37,7 @@ public:
 private:
     template<class Visit>
     void each_prism(std::size_t layers, const Visit& visit) const {
-        parallel_for(layers * graph_.facets(), prisms_per_piece, [&](std::size_t begin, std::size_t end) {
+        parallel_for(layers * graph_.facets(), prisms_per_choice, [&](std::size_t begin, std::size_t end) {
             for (std::size_t prism = begin; prism < end; ++prism) {
                 visit(prism / graph_.facets(), prism % graph_.facets());
             }

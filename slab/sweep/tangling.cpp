@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/tangling.h"
 
+#include "core/listed.h"
 #include "slab/sweep/boundary_mover.h"
 #include "slabhull/geometry/embedding.h"
 
@@ -64,19 +65,14 @@ std::map<FaultKey, PatchFault<D>> faults_by_patches(const Surface<D>& surface) {
     return found;
 }
 
-std::string in_words(std::vector<Index> facets) {
-    const bool more = facets.size() > most_partners;
-    facets.resize(std::min(facets.size(), most_partners));
-    return fmt::format("{}{}", fmt::join(facets, ", "), more ? " ..." : "");
-}
-
 /// "patch rotor collapses at t = 0.5 near (1, 0, 2), facets 3, 17"
 template<int D>
 std::string collapse_in_words(const std::string& patch, const PatchFault<D>& fault, double time) {
     std::vector<Index> facets{fault.facet};
     facets.insert(facets.end(), fault.partners.begin(), fault.partners.end());
     return fmt::format("patch {} collapses at t = {:.9g} near ({:.6g}), facet{} {}", patch, time,
-                       fmt::join(fault.near, ", "), facets.size() > 1 ? "s" : "", in_words(facets));
+                       fmt::join(fault.near, ", "), facets.size() > 1 ? "s" : "",
+                       listed(facets, most_partners));
 }
 
 /// "patches rotor and casing cross at t = 0.4183 near (1, 0, 2), facets 812 and 90, 14"
@@ -86,7 +82,7 @@ std::string crossing_in_words(const std::string& first, const std::string& secon
     const std::string who = first == second ? fmt::format("patch {} crosses itself", first)
                                             : fmt::format("patches {} and {} cross", first, second);
     return fmt::format("{} at t = {:.9g} near ({:.6g}), facets {} and {}", who, time,
-                       fmt::join(fault.near, ", "), fault.facet, in_words(fault.partners));
+                       fmt::join(fault.near, ", "), fault.facet, listed(fault.partners, most_partners));
 }
 
 /// A line for each pair of patches; empty when nothing crosses.

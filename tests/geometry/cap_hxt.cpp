@@ -23,7 +23,7 @@ CapOptions with_hxt(int blocks = 1) {
 
 } // namespace
 
-TEST_CASE("a build without Gmsh says so", "[hxt][bad-input]") {
+TEST_CASE("a build without Gmsh says so", "[without-gmsh]") {
     if (!has_mesher(SolidMesher::hxt)) {
         CHECK_THROWS_AS(mesh_cap(cube(1, 2), with_hxt()), UsageError);
         CHECK_THROWS_WITH(mesh_cap(cube(1, 2), with_hxt()), Contains("SLABHULL_GMSH"));
@@ -32,7 +32,7 @@ TEST_CASE("a build without Gmsh says so", "[hxt][bad-input]") {
 
 TEST_CASE("HXT fills every room up to its boundary, whole and in blocks", "[hxt]") {
     if (!has_mesher(SolidMesher::hxt)) {
-        WARN("no Gmsh in this build");
+        WARN("this build is without Gmsh");
         return;
     }
     for (const Room& room : rooms()) {

@@ -339,3 +339,15 @@ TEMPLATE_TEST_CASE_SIG("a boundary vertex that was left out is named", "", ((int
     CHECK_THROWS_AS(move_room(room, targets), GeometryError);
     CHECK_THROWS_WITH(move_room(room, targets), Contains("vertex 5"));
 }
+
+TEST_CASE("what move_cap() cannot take is an error", "[bad-input]") {
+    const Array<Point<2>> points{{0, 0}, {1, 0}, {0, 1}};
+    const Array<Simplex<2>> cells{{0, 1, 2}};
+    const Array<Index> boundary{0, 1, 2};
+    CHECK_NOTHROW(move_cap<2>(points, cells, boundary, points));
+    CHECK_THROWS_AS(move_cap<2>(points, cells, {}, {}), UsageError);
+    CHECK_THROWS_AS(move_cap<2>(points, cells, std::span{boundary}.first(2), points), UsageError);
+    const Array<Index> beyond{0, 1, 3};
+    CHECK_THROWS_WITH(move_cap<2>(points, cells, beyond, points),
+                      Catch::Matchers::Contains("is 3, but it has 3 points"));
+}

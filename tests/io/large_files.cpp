@@ -473,6 +473,6 @@ TEST_CASE("Data of more rows than MSH can count are refused before anything is w
     io::MeshColumns mesh = endless_mesh(rows, rows);
     mesh.cell_data = {{"many", io::Scalar::int32, Column<std::int64_t>::constant(rows, 1)}};
     const scratch::Folder folder;
-    CHECK_THROWS_AS(io::write_msh(folder / "a.msh", mesh), LimitError);
+    CHECK_THROWS_AS(io::write_msh(folder / "a.msh", mesh), FormatLimit);
     CHECK(folder.file_count() == 0);
 }

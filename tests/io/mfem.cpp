@@ -126,7 +126,7 @@ TEST_CASE("What MFEM cannot count, and a cell that has a vertex twice, are refus
     const specimens::Grid grid{2, 1};
     io::MeshColumns mesh = grid.columns();
     mesh.points = Column<double>{std::size_t{1} << 31, 3, {}};
-    CHECK_THROWS_AS(io::write_mfem(folder / "a.mesh", mesh), LimitError);
+    CHECK_THROWS_AS(io::write_mfem(folder / "a.mesh", mesh), FormatLimit);
     const std::vector<std::int64_t> twice{0, 0, 1};
     mesh = grid.columns();
     mesh.groups.clear();

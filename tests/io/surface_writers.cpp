@@ -99,8 +99,8 @@ TEST_CASE("What a surface file cannot hold is refused, and no file appears", "[i
                       Catch::Contains("vertex 1 has the coordinate 1e+39"));
     io::MeshColumns many = columns_of(far, triangle);
     many.points = Column<double>{std::size_t{1} << 31, 3, {}};
-    CHECK_THROWS_AS(io::write_surface(folder / "a.ply", many), LimitError);
+    CHECK_THROWS_AS(io::write_surface(folder / "a.ply", many), FormatLimit);
     many.cells = Column<std::int64_t>{std::size_t{1} << 32, 3, {}};
-    CHECK_THROWS_AS(io::write_surface(folder / "a.stl", many), LimitError);
+    CHECK_THROWS_AS(io::write_surface(folder / "a.stl", many), FormatLimit);
     CHECK(folder.file_count() == 0);
 }

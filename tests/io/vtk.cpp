@@ -242,7 +242,7 @@ TEST_CASE("More cells than a legacy file counts are an error before anything is 
     io::MeshColumns mesh;
     mesh.points = Column<double>{4, 3, [](auto, auto, double*) {}};
     mesh.cells = Column<std::int64_t>{429496730, 4, [](auto, auto, std::int64_t*) {}};
-    CHECK_THROWS_AS(written(mesh), LimitError);
+    CHECK_THROWS_AS(written(mesh), FormatLimit);
 }
 
 TEST_CASE("The bytes of a legacy file do not depend on the number of threads", "[io]") {

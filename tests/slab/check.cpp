@@ -2,6 +2,7 @@
 #include "slabhull/slab/check.h"
 #include "slabhull/topology/homology.h"
 
+#include "slab/require_found.h"
 #include "slab/specimens.h"
 #include "slabhull/core/parallel.h"
 
@@ -28,17 +29,6 @@ std::string all_texts(const CheckResult& result) {
 }
 
 /// Just these kinds of findings, each with text and the numbers of what is at fault.
-void require_found(const CheckResult& result, const std::set<Defect>& expected) {
-    INFO(all_texts(result));
-    for (std::size_t kind = 0; kind < defect_kinds; ++kind) {
-        CAPTURE(defect_name(static_cast<Defect>(kind)));
-        REQUIRE((result.found[kind] > 0) == expected.contains(static_cast<Defect>(kind)));
-    }
-    for (const Finding& finding : result.findings) {
-        REQUIRE_FALSE(finding.text.empty());
-    }
-}
-
 void require_clean(const CheckResult& result) {
     INFO(all_texts(result));
     REQUIRE(result.clean());
@@ -178,7 +168,7 @@ double sum(const std::array<double, D>& values) {
 TEMPLATE_TEST_CASE_SIG("sound hulls pass, with everything looked at", "", ((int D), D), 2, 3) {
     require_clean(check_hull<D>(columns_of(specimens::swept(specimens::full_box<D>(3), 1))));
     const auto hull = specimens::swept(specimens::box_with_two_bodies<D>(), 3);
-    require_clean(check_hull<D>(columns_of(hull)));
+    require_clean(check_hull<D>(hull));
     require_clean(check(Claims<D>{hull}));
     require_clean(check(body_claims<D>()));
 }
@@ -219,7 +209,7 @@ TEMPLATE_TEST_CASE_SIG("points and cells alone are checked as far as they go", "
 
 TEMPLATE_TEST_CASE_SIG("the report counts and measures", "", ((int D), D), 2, 3) {
     const auto hull = specimens::swept(specimens::full_box<D>(3), 2);
-    const auto report = check_hull<D>(columns_of(hull));
+    const auto report = check_hull<D>(hull);
     const double cap = std::pow(3, D);
     const double side = 2 * D * std::pow(3, D - 1);
     CHECK(report.dimension == D);

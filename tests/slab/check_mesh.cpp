@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "slab/require_found.h"
 #include "slab/specimens.h"
 #include "slabhull/slab/check.h"
 
@@ -6,7 +7,6 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
 
 using namespace slabhull;
 using specimens::Grid;
@@ -16,21 +16,6 @@ namespace {
 template<int D>
 MeshReport check(const Grid<D>& mesh) {
     return check_mesh<D>(mesh.points, mesh.cells);
-}
-
-void require_found(const CheckResult& result, const std::set<Defect>& expected) {
-    for (const Finding& finding : result.findings) {
-        UNSCOPED_INFO(finding.text);
-    }
-    for (std::size_t kind = 0; kind < defect_kinds; ++kind) {
-        UNSCOPED_INFO(defect_name(static_cast<Defect>(kind)) << ": " << result.found[kind]);
-    }
-    for (std::size_t kind = 0; kind < defect_kinds; ++kind) {
-        const bool found = result.found[kind] > 0;
-        if (found != expected.contains(static_cast<Defect>(kind))) {
-            FAIL("unexpected or missing: " << defect_name(static_cast<Defect>(kind)));
-        }
-    }
 }
 
 /// A vertex inside the mesh.
@@ -73,8 +58,7 @@ TEMPLATE_TEST_CASE_SIG("cells in the reverse order of the others", "", ((int D),
     auto mesh = specimens::full_box<D>(3);
     std::swap(mesh.cells[4][0], mesh.cells[4][1]);
     const MeshReport report = check(mesh);
-    require_found(report, {Defect::inverted_cell});
-    CHECK(report.findings[0].entities[0].number == 4);
+    require_found(report, {{Defect::inverted_cell, "cell", {4}}});
 }
 
 TEMPLATE_TEST_CASE_SIG("a vertex pushed through its neighbours", "", ((int D), D), 2, 3) {
@@ -100,16 +84,16 @@ TEMPLATE_TEST_CASE_SIG("two cells on the same side of a facet", "", ((int D), D)
     mesh.cells.push_back(cell);
     cell[0] = D + 1; // above the same facet
     mesh.cells.push_back(cell);
-    require_found(check(mesh), {Defect::folded_facet});
+    require_found(check(mesh), {{Defect::folded_facet, "cell", {0, 1}}});
 }
 
 TEMPLATE_TEST_CASE_SIG("broken numbers and coordinates", "", ((int D), D), 2, 3) {
     auto mesh = specimens::full_box<D>(2);
     mesh.cells[3][0] = static_cast<Index>(mesh.points.size());
-    require_found(check(mesh), {Defect::index_out_of_range});
+    require_found(check(mesh), {{Defect::index_out_of_range, "cell", {3}}});
     mesh = specimens::full_box<D>(2);
     mesh.points[2][1] = std::numeric_limits<double>::quiet_NaN();
-    require_found(check(mesh), {Defect::non_finite_coordinate});
+    require_found(check(mesh), {{Defect::non_finite_coordinate, "vertex", {2}}});
     mesh.cells.clear();
     require_found(check(mesh), {Defect::no_cells});
 }
@@ -118,15 +102,18 @@ TEMPLATE_TEST_CASE_SIG("repeated vertices, duplicated cells, unused and coincide
                        ((int D), D), 2, 3) {
     auto mesh = specimens::full_box<D>(2);
     mesh.cells.push_back(mesh.cells[5]);
-    require_found(check(mesh), {Defect::duplicate_cell});
+    const auto last_cell = static_cast<std::int64_t>(mesh.cells.size() - 1);
+    require_found(check(mesh), {{Defect::duplicate_cell, "cell", {5, last_cell}}});
 
     mesh = specimens::full_box<D>(3);
     Point<D> far;
     far.fill(9);
     mesh.points.push_back(far);
-    require_found(check(mesh), {Defect::unused_vertex});
+    const auto last_point = static_cast<std::int64_t>(mesh.points.size() - 1);
+    require_found(check(mesh), {{Defect::unused_vertex, "vertex", {last_point}}});
     mesh.points.back() = mesh.points[inner_vertex(mesh)];
-    require_found(check(mesh), {Defect::unused_vertex, Defect::coincident_vertices});
+    require_found(check(mesh), {{Defect::unused_vertex, "vertex", {last_point}},
+                                {Defect::coincident_vertices, "vertex", {inner_vertex(mesh), last_point}}});
 
     mesh = specimens::full_box<D>(2);
     mesh.cells[1][0] = mesh.cells[1][1];
@@ -157,7 +144,8 @@ TEMPLATE_TEST_CASE_SIG("a cell without a measure", "", ((int D), D), 2, 3) {
     flat[open] = static_cast<Index>(mesh.points.size() - 1);
     std::swap(flat[0], flat[1]);
     mesh.cells.push_back(flat);
-    require_found(check(mesh), {Defect::degenerate_cell});
+    require_found(check(mesh),
+                  {{Defect::degenerate_cell, "cell", {static_cast<std::int64_t>(mesh.cells.size() - 1)}}});
 }
 
 TEMPLATE_TEST_CASE_SIG("three cells on a facet", "", ((int D), D), 2, 3) {

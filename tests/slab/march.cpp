@@ -111,7 +111,7 @@ TEMPLATE_TEST_CASE_SIG("a corrected motion gives the same ids to the same vertic
                      predicted.hull.track_ids.begin() + static_cast<std::ptrdiff_t>(kept),
                      corrected.hull.track_ids.begin()));
     CHECK(predicted.hull.points != corrected.hull.points);
-    CHECK(check_hull<D>(columns_of(corrected.hull)).clean());
+    CHECK(check_hull<D>(corrected.hull).clean());
 }
 
 TEMPLATE_TEST_CASE_SIG(
@@ -169,7 +169,7 @@ TEMPLATE_TEST_CASE_SIG("a moved cap keeps its cells, and is meshed anew when its
     CHECK(near.terminating().cells.size() == before.cells.size());
     CHECK(near.terminating().points.size() == before.points.size());
     CHECK(near.terminating().vertex_ids != before.vertex_ids);
-    CHECK(check_hull<D>(columns_of(near.hull)).clean());
+    CHECK(check_hull<D>(near.hull).clean());
     CHECK(same_mesh(near.terminating(), march.propose({0, 0.02}).terminating()));
     march.accept(std::move(near));
 
@@ -177,7 +177,7 @@ TEMPLATE_TEST_CASE_SIG("a moved cap keeps its cells, and is meshed anew when its
     const Slab<D> anew = march.propose({0.02, 0.04});
     CHECK_FALSE(anew.cap_moved);
     CHECK(anew.moved_angle.value() < 59.9);
-    CHECK(check_hull<D>(columns_of(anew.hull)).clean());
+    CHECK(check_hull<D>(anew.hull).clean());
     march.settings().reuse = CapReuse::none;
     CHECK(same_mesh(anew.terminating(), march.propose({0.02, 0.04}).terminating()));
 }
@@ -203,7 +203,7 @@ TEST_CASE("a cap whose inner vertices come before its boundary's is moved, too",
     const March<2> march{march_from<2>(cap, 0, sorted.state().ids), settings};
     const Slab<2> slab = march.propose({0, 0.1});
     CHECK(slab.cap_moved);
-    CHECK(check_hull<2>(columns_of(slab.hull)).clean());
+    CHECK(check_hull<2>(slab.hull).clean());
 }
 
 TEST_CASE("a slab that was not proposed from here is not accepted", "[march]") {
@@ -292,4 +292,25 @@ TEST_CASE("over 10,000 slabs no id is given twice, and each initial cap is the c
         march.accept(std::move(slab));
     }
     CHECK(march.state().slab == 10'000);
+}
+
+TEMPLATE_TEST_CASE_SIG("a march that is stopped in any stage is as before", "", ((int D), D), 2, 3) {
+    March<D> march = coarse_march<D>();
+    const std::vector<double> times{0, 0.5, 1};
+    const Slab<D> expected = march.propose(times);
+    const std::string last = GENERATE("trajectories", "boundary check", "cap meshing", "stitching");
+    std::vector<std::string> stages;
+    march.on_progress([&](const std::string& stage) {
+        if (stages.empty() || stages.back() != stage) {
+            stages.push_back(stage);
+        }
+        return stage != last;
+    });
+    StageClock clock;
+    CHECK_THROWS_AS(march.build(times, clock), Interrupted);
+    CHECK(stages.back() == last);
+    march.on_progress({});
+    const Slab<D> again = march.propose(times);
+    CHECK(again.hull.points == expected.hull.points);
+    CHECK(again.hull.cells == expected.hull.cells);
 }

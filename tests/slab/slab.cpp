@@ -64,7 +64,7 @@ void check_march(const March<D>& m) {
         const Hull<D>& hull = m.hulls[s];
         CheckOptions options;
         options.betti_cells = practical_betti_cells;
-        const HullReport report = check_hull<D>(columns_of(hull), options);
+        const HullReport report = check_hull<D>(hull, options);
         for (const Finding& finding : report.findings) {
             FAIL_CHECK(finding.text);
         }

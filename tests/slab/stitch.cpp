@@ -67,7 +67,7 @@ template<int D>
 void check_sound(const Hull<D>& hull, const std::vector<std::size_t>& betti) {
     CheckOptions options;
     options.betti_cells = practical_betti_cells;
-    const HullReport report = check_hull<D>(columns_of(hull), options);
+    const HullReport report = check_hull<D>(hull, options);
     for (const Finding& finding : report.findings) {
         FAIL_CHECK(finding.text);
     }

@@ -38,7 +38,7 @@ ErrorRow errors_of(const Case& the_case, const SpatialMesh<D>& initial, const Id
     const Slab<D> slab =
         build_slab<D>(initial, boundary_of(initial), 0, the_case.level_times(the_case.start, the_case.end),
                       settings, ids, clock);
-    const HullReport report = check_hull<D>(columns_of(slab.hull));
+    const HullReport report = check_hull<D>(slab.hull);
     if (!report.clean()) {
         throw std::runtime_error("the hull has defects");
     }

@@ -487,10 +487,10 @@ TEST_CASE("arrays that do not fit together are refused") {
     const auto open = [&] { SimplicialComplex<3>::view(complex.cells, neighbors, complex.vertices); };
     CHECK_NOTHROW(open());
     neighbors[3][1] = 5;
-    CHECK_THROWS_WITH(open(), Contains("cell 3 has a neighbour that there is not"));
+    CHECK_THROWS_WITH(open(), Contains("cell 3 has a neighbour that does not exist"));
     neighbors[3][1] = no_index;
     complex.cells[2][0] = 77;
-    CHECK_THROWS_WITH(open(), Contains("cell 2 names a vertex that there is not"));
+    CHECK_THROWS_WITH(open(), Contains("cell 2 refers to a vertex that does not exist"));
     neighbors.pop_back();
     CHECK_THROWS_WITH(open(), Contains("5 cells, but neighbours of 4"));
 }

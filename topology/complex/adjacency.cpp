@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/topology/adjacency.h"
+#include "core/hash.h"
 
 #include "slabhull/core/parallel.h"
 #include "topology/complex/cell_lists.h"
@@ -141,7 +142,7 @@ private:
     /// Where the first side of this facet is, or goes.
     std::uint16_t& slot_of(const HalfFacet& half, int bits) {
         const std::uint64_t key = half.others ^ std::uint64_t{half.smallest} << (64 - bucket_bits);
-        std::size_t slot = (key * 0x9E3779B97F4A7C15u) >> (64 - bits); // Knuth's multiplicative hashing
+        std::size_t slot = hash_slot(key, bits);
         while (table_[slot] != vacant && !halves_[table_[slot]].same_facet(half)) {
             slot = (slot + 1) & (table_.size() - 1);
         }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/topology/manifold.h"
 
+#include "core/pieces.h"
+#include "core/scratch_pool.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/topology/cell_stretches.h"
 #include "topology/complex/cell_lists.h"
@@ -15,6 +17,7 @@
 #include <algorithm>
 #include <atomic>
 #include <iterator>
+#include <utility>
 
 namespace slabhull {
 
@@ -29,13 +32,7 @@ class PieceLists {
 public:
     PieceLists(std::size_t count, std::size_t grain) : grain_{grain}, lists_((count + grain - 1) / grain) {}
     std::vector<T>& at(std::size_t begin) { return lists_[begin / grain_]; }
-    std::vector<T> joined() const {
-        std::vector<T> all;
-        for (const std::vector<T>& list : lists_) {
-            all.insert(all.end(), list.begin(), list.end());
-        }
-        return all;
-    }
+    std::vector<T> joined() { return slabhull::joined(std::move(lists_)); }
 
 private:
     std::size_t grain_;
@@ -232,7 +229,7 @@ private:
         Usage usage;
         usage.one.assign(end - begin, no_index);
         usage.cells.assign(counted ? end - begin : 0, 0);
-        const std::vector<Index> some = stretches.naming(begin, end);
+        const std::vector<Index> some = stretches.using_vertices(begin, end);
         const auto file = [&](std::size_t c) {
             for (const Index v : cells_[c]) {
                 if (begin <= v && v < end) {
@@ -445,7 +442,7 @@ private:
     ManifoldOptions options_;
     ManifoldReport report_;
     std::vector<Index> discredited_; ///< cells at fault themselves, ascending
-    Lender<StarCounter<D>> counters_;
+    ScratchPool<StarCounter<D>> counters_;
     bool sound_ = false;        ///< the star and the link of every vertex that is used
     std::vector<bool> tainted_; ///< vertices of facets and cells at fault; empty when there are none
 };

@@ -32,11 +32,11 @@ void require_in_range(std::span<const Simplex<D>> cells, std::span<const Neighbo
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
         if (std::any_of(cells[c].begin(), cells[c].end(), [=](Index v) { return v >= vertex_count; })) {
-            refuse_view<D>(c, "names a vertex that there is not");
+            refuse_view<D>(c, "refers to a vertex that does not exist");
         }
         if (std::any_of(neighbors[c].begin(), neighbors[c].end(),
                         [&](Index n) { return n != no_index && n >= cells.size(); })) {
-            refuse_view<D>(c, "has a neighbour that there is not");
+            refuse_view<D>(c, "has a neighbour that does not exist");
         }
     }
 }

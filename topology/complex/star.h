@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/hash.h"
 #include "slabhull/core/point.h"
 
 #include <cstddef>
@@ -53,7 +54,7 @@ private:
     };
 
     Index mask() const { return static_cast<Index>(table_.size() - 1); }
-    Index home(Index key) const { return static_cast<Index>((key * 0x9E3779B97F4A7C15u) >> 32) & mask(); }
+    Index home(Index key) const { return static_cast<Index>(multiplied_hash(key) >> 32) & mask(); }
 
     void grow() {
         const std::vector<Index> keys{keys_.begin(), keys_.begin() + size_};

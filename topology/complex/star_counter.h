@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/hash.h"
 #include "slabhull/core/point.h"
 #include "topology/complex/corners.h"
 
@@ -8,8 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -57,7 +56,7 @@ private:
         Index epoch = 0; ///< slots of other epochs are vacant
     };
     bool taken(const Slot& slot) const { return slot.epoch == epoch_; }
-    std::size_t home(Key key) const { return (key * 0x9E3779B97F4A7C15u) >> (64 - bits_); }
+    std::size_t home(Key key) const { return hash_slot(key, bits_); }
 
     void grow() {
         const std::vector<Slot> before = std::exchange(table_, {});
@@ -136,7 +135,7 @@ private:
             twice_ = 0;
         }
         void insert(std::uint64_t others, bool counts) {
-            const std::uint64_t hash = others * 0x9E3779B97F4A7C15u;
+            const std::uint64_t hash = multiplied_hash(others);
             std::uint64_t& word = bits_[hash >> (64 - word_bits)];
             const std::uint64_t bit = std::uint64_t{counts} << (hash >> (58 - word_bits) & 63);
             twice_ |= word & bit;
@@ -243,31 +242,6 @@ private:
     QuickFacets quick_facets_;
     SureFacets sure_facets_;
     std::vector<Reached> reached_; ///< room for one beyond those reached
-};
-
-/// Lends things that are dear to make to the pieces of a parallel loop, so that each thread makes one at
-/// most.
-template<class T>
-class Lender {
-public:
-    template<class Make>
-    std::unique_ptr<T> take(const Make& make) {
-        const std::lock_guard guard{lock_};
-        if (idle_.empty()) {
-            return std::make_unique<T>(make());
-        }
-        std::unique_ptr<T> taken = std::move(idle_.back());
-        idle_.pop_back();
-        return taken;
-    }
-    void give_back(std::unique_ptr<T> thing) {
-        const std::lock_guard guard{lock_};
-        idle_.push_back(std::move(thing));
-    }
-
-private:
-    std::mutex lock_;
-    std::vector<std::unique_ptr<T>> idle_;
 };
 
 } // namespace slabhull

@@ -5,7 +5,9 @@
 // grow until they hold a path.
 #include "slabhull/topology/matching.h"
 
+#include "core/listed.h"
 #include "slabhull/core/error.h"
+#include "slabhull/core/progress.h"
 #include "topology/prism/alternating_forest.h"
 #include "topology/prism/greedy_matching.h"
 
@@ -44,8 +46,9 @@ template<class Work>
 void run_on_stack(std::size_t bytes, const Work& work) {
     struct Task {
         const Work& work;
+        detail::ProgressWatchPointer watch;
         std::exception_ptr failure;
-    } task{work, nullptr};
+    } task{work, detail::current_watch(), nullptr};
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
     pthread_attr_setstacksize(&attributes, bytes);
@@ -54,6 +57,7 @@ void run_on_stack(std::size_t bytes, const Work& work) {
         &thread, &attributes,
         [](void* argument) -> void* {
             Task& mine = *static_cast<Task*>(argument);
+            detail::exchange_watch(mine.watch);
             try {
                 mine.work();
             } catch (...) {
@@ -88,6 +92,7 @@ public:
             }
         }
         for (std::size_t size = first_size; !left.empty(); size *= growth) {
+            go_on();
             std::erase_if(left, [&](Index f) { return mate_[f] != no_index || augment_ball(f, size); });
             if (size > mate_.size() && !left.empty()) {
                 refuse(left);
@@ -181,13 +186,10 @@ private:
         for (const Index f : left) {
             entities.push_back({"facet", f, {}});
         }
-        const std::size_t shown = std::min<std::size_t>(left.size(), 8);
         throw GeometryError(
-            fmt::format("{} facets of the boundary cannot be paired with a neighbour: {}{}. The "
+            fmt::format("{} facets of the boundary cannot be paired with a neighbour: {}. The "
                         "boundary must be closed: each edge in exactly two facets",
-                        left.size(),
-                        fmt::join(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                        shown < left.size() ? " ..." : ""),
+                        left.size(), listed(left)),
             std::move(entities));
     }
 
@@ -203,6 +205,7 @@ Array<Index> perfect_matching(std::span<const Neighbors<2>> neighbors) {
     Array<Index> mate = greedy_matching(neighbors);
     AlternatingForest forest{neighbors, mate};
     while (forest.augment() > 0) {
+        go_on();
     }
     Repair{neighbors, mate}.run();
     return mate;

@@ -9,7 +9,7 @@
 namespace slabhull {
 
 /// Why a job was refused; the value is the program's exit code.
-enum class Failure : int { usage = 2, input = 3, geometry = 4, output = 5 };
+enum class Failure : int { usage = 2, input = 3, geometry = 4, output = 5, interrupted = 130 };
 
 /// A thing at fault, in the numbering of the user's own file (or of the boundary, for moved facets).
 struct Entity {
@@ -58,6 +58,12 @@ public:
 class OutputError : public Error {
 public:
     explicit OutputError(const std::string& message) : Error{Failure::output, message} {}
+};
+
+/// A file format cannot hold what is to be written; nothing is written.
+class FormatLimit : public OutputError {
+public:
+    using OutputError::OutputError;
 };
 
 /// A count does not fit the index type.

@@ -40,7 +40,8 @@ struct MovedCap {
 /// threads.
 /// Needs: positive cells; `boundary` all the vertices of their boundary facets, each once (more may be
 /// given), as many as `targets`.
-/// Throws GeometryError naming an inner vertex around which the cells fill no ball.
+/// Throws UsageError for no boundary, for targets of another number and for vertices that do not exist;
+/// GeometryError naming an inner vertex around which the cells fill no ball.
 /// Cost: near-linear; some 0.35 microseconds per tetrahedron on one thread, a tenth of mesh_cap(), and 60
 /// bytes of each.
 template<int D>

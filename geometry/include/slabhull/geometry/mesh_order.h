@@ -9,7 +9,7 @@
 namespace slabhull {
 
 /// Renumbers the points after the first `fixed_points`, and all cells by their centres, along a Z curve
-/// (Morton order), so that what is near in space is mostly near in memory. Cells keep the order of their
+/// (Morton order), so that points near in space are mostly near in memory. Cells keep the order of their
 /// corners; neighbours follow. What lies on one place of the curve, of 2^(64 / D) per axis, keeps its order.
 /// Cost: a sort, some 24 extra bytes for each cell.
 template<int D>

@@ -61,7 +61,7 @@ Soup read_tetgen(const std::filesystem::path& path);
 /// Tetrahedron or Mixed cells (of which each simplex keeps its number as its tag, and cell data those of the
 /// largest dimension), Geometry XYZ or XY, plain DataItems as text, in binary files or in HDF5, there packed
 /// by deflate or not. Attributes of the grid and what write_xdmf() keeps as Information are field data.
-/// Datasets are believed only as far as the HDF5 file is large enough. Throws UsageError for HDF5 in a build
+/// Datasets are trusted only as far as the HDF5 file is large enough. Throws UsageError for HDF5 in a build
 /// without it.
 Soup read_xdmf(const std::filesystem::path& path);
 /// Whether this build has HDF5.
@@ -128,7 +128,7 @@ struct MshOptions {
 /// MSH: dense tags from 1, one block of nodes, one of elements per group (groups may share a number, and then
 /// an entity), `$PhysicalNames` and, in version 4.1, `$Entities`; point data as `$NodeData`, cell data as
 /// `$ElementData`. Reals of 3 or 9 components are one array, all others become name_0, name_1 ... Throws
-/// LimitError where there is more than the format counts, in 32 bits but for the nodes and elements of
+/// FormatLimit where there is more than the format counts, in 32 bits but for the nodes and elements of
 /// version 4.1, and std::invalid_argument when the groups do not hold all cells in order.
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh, const MshOptions& options = {});
 /// The mesh in pieces for readers that work in parallel, as Gmsh splits a partitioned mesh: for NAME.msh the
@@ -143,7 +143,8 @@ void write_vtu(AtomicFile& file, const MeshColumns& mesh, VtuEncoding encoding =
 void write_msh(AtomicFile& file, const MeshColumns& mesh, const MshOptions& options = {});
 /// VTK legacy, version 4.2, binary: what write_vtu() writes, arrays as FIELD, int64 as `long` (the one name
 /// that both VTK, where a long has 64 bits, and meshio know), text arrays as bytes whose component is called
-/// slabhull_text. Throws LimitError when the format's 32 bits do not count the points or the values of CELLS.
+/// slabhull_text. Throws FormatLimit when the format's 32 bits do not count the points or the values of
+/// CELLS.
 void write_vtk(AtomicFile& file, const MeshColumns& mesh);
 
 /// XDMF 3 for NAME.xdmf, and the data in NAME.h5 beside it, which gets its name just before; plain, in
@@ -188,14 +189,14 @@ void write_avro(const std::filesystem::path& path, const MeshColumns& mesh);
 /// after the largest. The boundary elements are the facets of one cell only, oriented as its boundary, with
 /// attribute 1; to find them the cells are copied: with their adjacency 8 (D + 1) bytes per cell. Two
 /// coordinates where all third ones of lines or triangles are 0. Doubles come back exactly; names and data,
-/// the times of hulls in 3D + t among them, are left out. Throws LimitError beyond 2^31 - 1 vertices or
+/// the times of hulls in 3D + t among them, are left out. Throws FormatLimit beyond 2^31 - 1 vertices or
 /// cells, GeometryError for a cell that has a vertex twice.
 void write_mfem(AtomicFile& file, const MeshColumns& mesh);
 void write_mfem(const std::filesystem::path& path, const MeshColumns& mesh);
 
 /// Surfaces of triangles: STL (binary; coordinates in single precision, vertices repeated by facet), OFF and
 /// OBJ (text, doubles that come back exactly), PLY (binary, doubles). Groups and data are left out. Throws
-/// UsageError for a mesh of other simplices, LimitError where counts or, in STL, coordinates are too large.
+/// UsageError for a mesh of other simplices, FormatLimit where counts or, in STL, coordinates are too large.
 void write_stl(AtomicFile& file, const MeshColumns& mesh);
 void write_off(AtomicFile& file, const MeshColumns& mesh);
 void write_obj(AtomicFile& file, const MeshColumns& mesh);

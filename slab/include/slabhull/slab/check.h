@@ -37,7 +37,7 @@ enum class Defect {
     disoriented_facet,
     singular_edge,
     singular_vertex,
-    euler_mismatch, ///< the hull has not the Euler characteristic that its caps ask for (D = 2)
+    euler_mismatch, ///< the hull's Euler characteristic is not the one that follows from its caps (D = 2)
     // Shape
     coincident_vertices,
     degenerate_cell,    ///< measure below 1e-14 of the longest edge to the power D
@@ -160,6 +160,12 @@ struct HullReport : CheckResult {
 /// (95 with Betti numbers). The same report for any number of threads.
 template<int D>
 HullReport check_hull(const HullColumns<D>& hull, const CheckOptions& options = {});
+
+/// The same for a hull as the library builds it.
+template<int D>
+HullReport check_hull(const Hull<D>& hull, const CheckOptions& options = {}) {
+    return check_hull<D>(columns_of(hull), options);
+}
 
 struct MeshReport : CheckResult {
     int dimension = 0;

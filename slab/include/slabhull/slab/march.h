@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/core/progress.h"
+#include "slabhull/slab/domain.h"
 #include "slabhull/slab/slab.h"
 
+#include <utility>
 #include <vector>
 
 namespace slabhull {
@@ -19,8 +22,12 @@ struct MarchState {
     Boundary<D> boundary;
 };
 
-/// A march that begins: `cap` at time `time`, with tracks from 0 in the order of its boundary's vertices, as
-/// initial_cap() gives it. Throws GeometryError when the cap's boundary facets are no closed manifold.
+/// A march that begins with a domain at time `time`.
+template<int D>
+MarchState<D> march_from(Domain<D> domain, double time);
+
+/// The same for a mesh that is sorted and numbered as that of a Domain. Throws GeometryError when its
+/// boundary facets are no closed manifold.
 template<int D>
 MarchState<D> march_from(SpatialMesh<D> cap, double time, const IdCounter& ids);
 
@@ -50,6 +57,10 @@ public:
     /// Goes on to the slab's end. Throws UsageError for a slab that was not proposed from here.
     void accept(Slab<D>&& slab);
 
+    /// Tells `progress` what goes on in propose() and build(), and stops them within a second when it returns
+    /// false: they throw Interrupted, and the march is as before.
+    void on_progress(Progress progress) { progress_ = std::move(progress); }
+
 private:
     void require_times(const std::vector<double>& times) const;
     /// Tells the initial cap from others; -1 for one without vertices.
@@ -58,8 +69,11 @@ private:
     MarchState<D> state_;
     SlabSettings<D> settings_;
     PersistentId first_id_;
+    Progress progress_;
 };
 
+extern template MarchState<2> march_from<2>(Domain<2>, double);
+extern template MarchState<3> march_from<3>(Domain<3>, double);
 extern template MarchState<2> march_from<2>(SpatialMesh<2>, double, const IdCounter&);
 extern template MarchState<3> march_from<3>(SpatialMesh<3>, double, const IdCounter&);
 extern template class March<2>;

@@ -25,8 +25,8 @@ struct TwinFacet {
 };
 
 /// The boundary of a moving domain: a closed oriented (D-1)-manifold of facets, whose connectivity stays
-/// while its vertices move. It is opened once, when a march starts, and everyone who needs to know what is
-/// beside what asks it: half-edges (OpenMesh) for D = 3, a complex of edges for D = 2.
+/// while its vertices move. It is opened once, when a march starts, and everyone who needs to know which
+/// facet is beside what asks it: half-edges (OpenMesh) for D = 3, a complex of edges for D = 2.
 ///
 /// Two facets meet in a ridge: an edge for D = 3, a vertex for D = 2. Ridge i of a facet is opposite to its
 /// vertex i. Ridges are numbered by the first facet that has them, then by i (D = 3); for D = 2 they have the

@@ -14,9 +14,9 @@
 
 namespace slabhull {
 
-/// Cells in stretches of consecutive numbers, each with which of up to 256 blocks of consecutive vertices it
-/// names, so that what is done for some vertices after the others need not go through all cells each time:
-/// meshes are mostly numbered so that what is near in space is near in memory. 1/32 byte per cell.
+/// Per stretch of 1,024 consecutive cells, a 256-bit mask of the vertex blocks that its cells use. A loop
+/// over some of the vertices then visits only the stretches that may use them. That skips most cells, as
+/// vertices that are near in space mostly have near numbers. Costs 1/32 byte per cell.
 template<int D>
 class CellStretches {
 public:
@@ -25,27 +25,27 @@ public:
     /// Needs: vertices of cells below `vertex_count`.
     CellStretches(std::span<const Simplex<D>> cells, std::size_t vertex_count)
         : cell_count_{cells.size()}, block_bits_{static_cast<int>(std::bit_width(vertex_count / blocks))} {
-        named_.resize((cells.size() + length - 1) / length);
+        used_.resize((cells.size() + length - 1) / length);
         parallel_for(cells.size(), length, [&](std::size_t begin, std::size_t end) {
-            Blocks& named = named_[begin / length];
+            Blocks& used = used_[begin / length];
             for (std::size_t c = begin; c < end; ++c) {
                 for (const Index v : cells[c]) {
-                    named[v >> block_bits_] = true;
+                    used[v >> block_bits_] = true;
                 }
             }
         });
     }
 
-    /// Those that may name vertices in [begin, end), which are vertices of the mesh; by number.
-    std::vector<Index> naming(std::size_t begin, std::size_t end) const {
+    /// The stretches whose cells may use vertices in [begin, end), ascending.
+    std::vector<Index> using_vertices(std::size_t begin, std::size_t end) const {
         Blocks wanted;
         for (std::size_t block = begin >> block_bits_; begin < end && block <= (end - 1) >> block_bits_;
              ++block) {
             wanted.set(block);
         }
         std::vector<Index> found;
-        for (std::size_t s = 0; s < named_.size(); ++s) {
-            if ((named_[s] & wanted).any()) {
+        for (std::size_t s = 0; s < used_.size(); ++s) {
+            if ((used_[s] & wanted).any()) {
                 found.push_back(static_cast<Index>(s));
             }
         }
@@ -67,7 +67,7 @@ private:
 
     std::size_t cell_count_;
     int block_bits_; ///< of a vertex's number, within its block
-    std::vector<Blocks> named_;
+    std::vector<Blocks> used_;
 };
 
 /// How many vertices to look at at once, so that it takes about `passes` goes through a large mesh.

@@ -133,9 +133,11 @@ private:
 
 } // namespace slabhull
 
+/// @cond Doxygen looks for Boost's own template.
 /// Tells Boost the type of get(vertex_index, graph).
 template<int D>
 struct boost::property_map<slabhull::DualGraph<D>, boost::vertex_index_t> {
     using type = boost::typed_identity_property_map<slabhull::Index>;
     using const_type = type;
 };
+/// @endcond

@@ -72,7 +72,7 @@ ManifoldReport examine_manifold(std::span<const Simplex<D>> cells, std::size_t v
 
 /// The report of examine_manifold() when `claimed` are the cells' neighbours and the cells form a closed
 /// oriented manifold; else nothing, and build_adjacency() and examine_manifold() tell what is wrong. Nothing
-/// is believed: each facet is compared with what is said to be across it, and at each vertex no facet is met
+/// is trusted: each facet is compared with what is said to be across it, and at each vertex no facet is met
 /// in two pairs of neighbours. Several times faster than finding the adjacency. Needs: vertices below
 /// `vertex_count`. Cost: linear; about 1 extra byte per cell.
 template<int D>

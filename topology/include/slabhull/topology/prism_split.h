@@ -30,7 +30,7 @@ enum class Diagonals {
     smallest_id, ///< starting at the vertex of smallest id, as in split A
 };
 
-/// The split called `name` in dimension D. Throws UsageError naming those that there are.
+/// The split called `name` in dimension D. Throws UsageError that lists the known splits.
 Split split_from_name(std::string_view name, int dimension);
 std::string_view split_name(Split split);
 
@@ -136,7 +136,7 @@ constexpr std::uint8_t template_number(const Quads<D>& quads) {
     }
     return static_cast<std::uint8_t>(number);
 }
-/// The templates of `split` by template_number(). Those that it has not (A's diagonals in a cycle, say) have
+/// The templates of `split` by template_number(). Impossible ones (A's diagonals in a cycle, say) have
 /// no cells.
 template<int D>
 std::span<const PrismTemplate<D>> templates_of(Split split);

@@ -65,7 +65,7 @@ public:
 
     /// The complex of a soup of cells. Vertices that no cell uses are allowed.
     /// Throws GeometryError, with the cells as entities, for whatever is no oriented manifold: cells that
-    /// name a vertex twice or one that there is not, doubles, facets in three or more cells or in two that
+    /// name a vertex twice or one that does not exist, doubles, facets in three or more cells or in two that
     /// disagree in orientation, vertices whose link is not a sphere or a disc. Nothing is mended.
     /// Cost: near-linear, that of build_adjacency() and a walk around every vertex.
     static SimplicialComplex from_soup(Array<Simplex<D>> cells, std::size_t vertex_count);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/error.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace slabhull {
+
+/// Told what long work is doing, some twenty times a second, such as "cap meshing"; empty between two stages.
+/// Returns whether to go on. Called by one thread at a time, not always by the same one. It must not throw.
+using Progress = std::function<bool(const std::string& stage)>;
+
+/// Work was stopped because its Progress said so. Nothing is left behind: no file, no process, no change of
+/// state.
+class Interrupted : public Error {
+public:
+    Interrupted() : Error{Failure::interrupted, "interrupted"} {}
+};
+
+namespace detail {
+class ProgressWatch;
+using ProgressWatchPointer = std::shared_ptr<ProgressWatch>;
+/// What this thread's work is watched by; null for nothing.
+ProgressWatchPointer current_watch();
+/// Makes it so, for threads that do another one's work. Gives back what was there.
+ProgressWatchPointer exchange_watch(ProgressWatchPointer watch);
+} // namespace detail
+
+/// While it lives, what this thread does is watched by `progress`: parallel loops and child processes that it
+/// starts, too. A scope inside another asks both. An empty function: work that must come to its end, for
+/// which no one is asked.
+class ProgressScope {
+public:
+    explicit ProgressScope(Progress progress);
+    ProgressScope(const ProgressScope&) = delete;
+    ProgressScope& operator=(const ProgressScope&) = delete;
+    ~ProgressScope();
+
+private:
+    detail::ProgressWatchPointer outer_;
+};
+
+/// Names what is done from here on.
+void enter_stage(const std::string& stage);
+
+/// To be called now and then by long loops: throws Interrupted when the work is to stop. Costs some 30 ns.
+void go_on();
+
+} // namespace slabhull

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/core/progress.h"
+
+#include "slabhull/core/child_process.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/core/stopwatch.h"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+using namespace slabhull;
+
+namespace {
+
+void work_for(std::chrono::milliseconds span) {
+    std::this_thread::sleep_for(span);
+}
+
+/// Goes on for some questions, then not.
+Progress patience(int questions) {
+    return [left = questions](const std::string&) mutable { return left-- > 0; };
+}
+
+} // namespace
+
+TEST_CASE("without a scope nothing stops") {
+    CHECK_NOTHROW(go_on());
+    CHECK_NOTHROW(enter_stage("alone"));
+}
+
+TEST_CASE("a parallel loop stops on all its threads, and the next one, too") {
+    const int threads = GENERATE(1, 4);
+    set_thread_count(threads);
+    const ProgressScope scope{patience(2)};
+    std::atomic<int> pieces{0};
+    const auto loop = [&] {
+        parallel_for(100'000, 1, [&](std::size_t, std::size_t) {
+            ++pieces;
+            work_for(std::chrono::milliseconds{1});
+        });
+    };
+    CHECK_THROWS_AS(loop(), Interrupted);
+    CHECK(pieces > 0);
+    CHECK(pieces < 10'000);
+    pieces = 0;
+    CHECK_THROWS_AS(loop(), Interrupted);
+    CHECK(pieces == 0);
+    set_thread_count(0);
+}
+
+TEST_CASE("scopes: an inner one asks the outer one, an empty one asks nobody, and each ends") {
+    const ProgressScope outer{patience(1)};
+    {
+        const ProgressScope inner{patience(1'000'000)};
+        CHECK_NOTHROW(go_on());
+        const auto until_stopped = [] {
+            for (;;) {
+                go_on();
+            }
+        };
+        CHECK_THROWS_AS(until_stopped(), Interrupted);
+        const ProgressScope to_the_end{{}};
+        CHECK_NOTHROW(go_on());
+    }
+    CHECK_THROWS_AS(go_on(), Interrupted);
+}
+
+TEST_CASE("the stage is told when it is entered") {
+    std::vector<std::string> told;
+    {
+        const ProgressScope scope{[&told](const std::string& stage) {
+            told.push_back(stage);
+            return true;
+        }};
+        enter_stage("first");
+        enter_stage("second");
+    }
+    CHECK(told == std::vector<std::string>{"first", "second"});
+}
+
+TEST_CASE("a child that says nothing is ended") {
+    const ProgressScope scope{patience(3)};
+    pid_t child = 0;
+    const Stopwatch watch;
+    const auto run = [&] {
+        run_in_child(
+            [](const Send& send) {
+                const pid_t self = getpid();
+                send(&self, sizeof self);
+                for (;;) {
+                    pause();
+                }
+            },
+            [&](const Receive& receive) {
+                receive(&child, sizeof child);
+                char never = 0;
+                return receive(&never, 1);
+            });
+    };
+    CHECK_THROWS_AS(run(), Interrupted);
+    CHECK(watch.seconds() < 10);
+    REQUIRE(child > 0);
+    CHECK(kill(child, 0) != 0);
+}
+
+TEST_CASE("a child is not asked: its parent is") {
+    const ProgressScope scope{patience(1'000'000)};
+    const ChildAnswer answer = ask_child([] {
+        parallel_for(10, 1, [](std::size_t, std::size_t) { work_for(std::chrono::milliseconds{1}); });
+        return std::string{"done"};
+    });
+    CHECK(answer.text == "done");
+}
