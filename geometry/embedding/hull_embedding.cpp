@@ -101,10 +101,10 @@ private:
     /// Calls work(item, piece) for all items. In rounds that grow, so that a hull which crosses itself
     /// everywhere ends soon, with the same result for any number of threads.
     void in_rounds(std::size_t count, const std::function<void(std::size_t item, Piece<D>&)>& work) {
-        constexpr std::size_t grain = 16;
-        std::size_t round = 16 * grain;
+        std::size_t round = 2;
         for (std::size_t first = 0; first < count && result_.crossings.size() <= limit_; first += round) {
             round = first == 0 ? round : std::min<std::size_t>(2 * round, 1 << 14);
+            const std::size_t grain = std::max<std::size_t>(1, round / 1024);
             const std::size_t items = std::min(round, count - first);
             std::vector<Piece<D>> pieces((items + grain - 1) / grain);
             parallel_for(items, grain, [&](std::size_t begin, std::size_t end) {
