@@ -64,11 +64,12 @@ void print_report(const std::string& file, const MeshReport& report) {
 }
 
 void print_summary(const EmbeddingSummary& embedding) {
-    fmt::print(
-        "  embedding: {} cells in {} pairs whose boxes meet, {} of them decided in rational numbers{}{}\n",
-        embedding.tested_cells, embedding.tested_pairs, embedding.exact_pairs,
-        embedding.caps_proven ? "; caps proven as a whole" : "",
-        embedding.all_listed ? "" : "; stopped, as there are many crossings");
+    fmt::print("  embedding: {} cells{}; {} of {} stars proven as a whole, {} pairs of groups apart from "
+               "each other; "
+               "{} pairs of cells, {} of them decided in rational numbers{}\n",
+               embedding.tested_cells, embedding.caps_proven ? ", the caps proven as a whole" : "",
+               embedding.proven_stars, embedding.stars, embedding.group_pairs, embedding.tested_pairs,
+               embedding.exact_pairs, embedding.all_listed ? "" : "; stopped, as there are many crossings");
 }
 
 template<class Report>

@@ -119,9 +119,15 @@ nlohmann::ordered_json as_json(const SectionReport& report, const PatchList& pat
 }
 
 nlohmann::ordered_json as_json(const EmbeddingSummary& summary) {
-    return {{"crossings", summary.crossings},       {"all_listed", summary.all_listed},
-            {"caps_proven", summary.caps_proven},   {"tested_cells", summary.tested_cells},
-            {"tested_pairs", summary.tested_pairs}, {"exact_pairs", summary.exact_pairs}};
+    return {{"crossings", summary.crossings},
+            {"all_listed", summary.all_listed},
+            {"caps_proven", summary.caps_proven},
+            {"tested_cells", summary.tested_cells},
+            {"stars", summary.stars},
+            {"proven_stars", summary.proven_stars},
+            {"group_pairs", summary.group_pairs},
+            {"tested_pairs", summary.tested_pairs},
+            {"exact_pairs", summary.exact_pairs}};
 }
 
 std::string report_as_json(const HullReport& report) {

@@ -29,7 +29,7 @@ template<int D>
 class CapProof {
 public:
     CapProof(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-             const Adjacency<D>& adjacency, std::span<const CapOf> caps)
+             const AdjacencyView<D>& adjacency, std::span<const CapOf> caps)
         : points_{points}, cells_{cells}, neighbors_{adjacency.neighbors}, caps_{caps} {}
 
     bool holds(CapOf cap) {
@@ -190,7 +190,7 @@ std::vector<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<con
 
 template<int D>
 bool caps_are_embedded(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-                       const Adjacency<D>& adjacency, std::span<const CapOf> caps) {
+                       const AdjacencyView<D>& adjacency, std::span<const CapOf> caps) {
     CapProof<D> proof{points, cells, adjacency, caps};
     return adjacency.defects.empty() && proof.holds(CapOf::first) && proof.holds(CapOf::last);
 }
@@ -198,8 +198,8 @@ bool caps_are_embedded(std::span<const Point<D + 1>> points, std::span<const Sim
 template std::vector<CapOf> find_caps<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
 template std::vector<CapOf> find_caps<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 template bool caps_are_embedded<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
-                                   const Adjacency<2>&, std::span<const CapOf>);
+                                   const AdjacencyView<2>&, std::span<const CapOf>);
 template bool caps_are_embedded<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
-                                   const Adjacency<3>&, std::span<const CapOf>);
+                                   const AdjacencyView<3>&, std::span<const CapOf>);
 
 } // namespace slabhull

@@ -30,13 +30,13 @@ std::vector<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<con
 /// False says only that this proof fails. Cost: that of require_domain_boundary() for both caps.
 template<int D>
 bool caps_are_embedded(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-                       const Adjacency<D>& adjacency, std::span<const CapOf> caps);
+                       const AdjacencyView<D>& adjacency, std::span<const CapOf> caps);
 
 extern template std::vector<CapOf> find_caps<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
 extern template std::vector<CapOf> find_caps<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 extern template bool caps_are_embedded<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
-                                          const Adjacency<2>&, std::span<const CapOf>);
+                                          const AdjacencyView<2>&, std::span<const CapOf>);
 extern template bool caps_are_embedded<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
-                                          const Adjacency<3>&, std::span<const CapOf>);
+                                          const AdjacencyView<3>&, std::span<const CapOf>);
 
 } // namespace slabhull

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/hull_embedding.h"
 
-#include "geometry/basics/predicates.h"
 #include "geometry/embedding/box_tree.h"
-#include "geometry/embedding/cell_meeting.h"
-#include "geometry/embedding/cell_separation.h"
+#include "geometry/embedding/cell_groups.h"
+#include "geometry/embedding/cell_pairs.h"
 #include "geometry/embedding/embedded_caps.h"
-#include "geometry/embedding/facet_pair.h"
+#include "geometry/embedding/group_parting.h"
+#include "geometry/embedding/group_stars.h"
 
 #include "slabhull/core/parallel.h"
 #include "slabhull/geometry/measures.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <functional>
 #include <tuple>
 #include <utility>
 
@@ -21,179 +20,209 @@ namespace slabhull {
 
 namespace {
 
-bool degenerate(const std::array<Point<3>, 3>& triangle) {
-    return exact::degenerate(triangle);
-}
-
-/// A tetrahedron in R^4 is flat when its images along all four axes are; the one along the axis nearest to
-/// its normal settles it nearly always.
-bool degenerate(const std::array<Point<4>, 4>& tetrahedron) {
-    const Point<4> normal = simplex_normal<3>(tetrahedron);
-    const auto steeper = [](double a, double b) { return std::abs(a) < std::abs(b); };
-    const auto nearest =
-        static_cast<std::size_t>(std::max_element(normal.begin(), normal.end(), steeper) - normal.begin());
-    for (std::size_t turn = 0; turn < 4; ++turn) {
-        const std::size_t axis = (nearest + turn) % 4;
-        std::array<Point<3>, 4> image;
-        for (std::size_t i = 0; i < 4; ++i) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                image[i][k] = tetrahedron[i][(axis + 1 + k) % 4];
-            }
-        }
-        if (exact::orientation(image) != 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/// What the search in one stretch of the tree gave.
+/// What the search in one stretch of the groups gave.
 template<int D>
 struct Piece {
-    std::vector<Crossing<D + 1>> crossings;
-    std::size_t tested = 0;
-    std::size_t exact = 0;
+    PairTally<D> pairs;
+    std::size_t group_pairs = 0;
 };
 
+/// Decides the pairs of groups that are left: stars that were not proven, and groups that do not touch.
 template<int D>
 class EmbeddingSearch {
 public:
     EmbeddingSearch(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-                    std::size_t limit)
-        : points_{points}, cells_{cells}, limit_{limit} {}
+                    const AdjacencyView<D>& adjacency, std::size_t limit)
+        : points_{points}, cells_{cells}, adjacency_{adjacency}, limit_{limit}, scale_{scale_of_cells<D>(
+                                                                                    points, cells)},
+          cell_pairs_{points, cells, scale_}, groups_{cells, points.size(), neighbors(), select()} {}
 
-    HullEmbedding<D> run(const Adjacency<D>& adjacency) {
-        const std::vector<CapOf> caps = find_caps<D>(points_, cells_);
-        result_.caps_proven = caps_are_embedded<D>(points_, cells_, adjacency, caps);
-        select(caps);
-        const Array<Box<D + 1>> boxes = cell_boxes();
-        find_scale(boxes);
-        search(BoxTree<D + 1>{boxes});
+    HullEmbedding<D> run() {
+        prove_stars();
+        find_degenerate();
+        pair_within_stars();
+        pair_apart();
         finish();
         return std::move(result_);
     }
 
 private:
-    void select(const std::vector<CapOf>& caps) {
-        for (std::size_t c = 0; c < cells_.size(); ++c) {
-            if (!result_.caps_proven || caps[c] == CapOf::none) {
-                selected_.push_back(static_cast<Index>(c));
-            }
-        }
-        result_.tested_cells = selected_.size();
+    /// Those of a closed and oriented complex, or none.
+    std::span<const Neighbors<D>> neighbors() const {
+        return adjacency_.defects.empty() ? adjacency_.neighbors : std::span<const Neighbors<D>>{};
     }
 
-    /// Boxes of the selected cells; those without extent keep an empty one, which pairs with nothing, and are
-    /// reported.
-    Array<Box<D + 1>> cell_boxes() {
-        Array<Box<D + 1>> boxes;
-        boxes.assign(selected_.size(), Box<D + 1>{});
-        parallel_for(boxes.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k) {
-                const auto corners = corners_of<D, D + 1>(cells_[selected_[k]], points_);
-                if (!degenerate(corners)) {
-                    std::for_each(corners.begin(), corners.end(),
-                                  [&](const auto& p) { boxes[k].include(p); });
+    std::vector<bool> select() {
+        const std::vector<CapOf> caps = find_caps<D>(points_, cells_);
+        result_.caps_proven = caps_are_embedded<D>(points_, cells_, adjacency_, caps);
+        std::vector<bool> selected(cells_.size());
+        for (std::size_t c = 0; c < cells_.size(); ++c) {
+            selected[c] = !result_.caps_proven || caps[c] == CapOf::none;
+            result_.tested_cells += selected[c];
+        }
+        return selected;
+    }
+
+    void prove_stars() {
+        centres_ = star_centres<D>(groups_, points_.size());
+        star_of_.assign(points_.size(), Star::none);
+        std::vector<char> proven(centres_.size());
+        if (!neighbors().empty()) {
+            proven = GroupStars<D>{points_, cells_, neighbors(), groups_, scale_}.prove(centres_);
+        }
+        for (std::size_t k = 0; k < centres_.size(); ++k) {
+            star_of_[centres_[k]] = proven[k] ? Star::proven : Star::open;
+            result_.proven_stars += proven[k];
+        }
+        result_.stars = centres_.size();
+        std::erase_if(centres_, [&](Index v) { return star_of_[v] == Star::proven; });
+    }
+
+    bool in_proven_star(std::size_t group) const {
+        const auto around = groups_.vertices(group);
+        return std::any_of(around.begin(), around.end(),
+                           [&](Index v) { return star_of_[v] == Star::proven; });
+    }
+
+    /// Cells without extent, which pair with nothing and are reported; there are none in proven stars.
+    void find_degenerate() {
+        for (std::size_t g = 0; g < groups_.tested(); ++g) {
+            for (std::size_t k = 0; k < groups_.cell_count(g) && !in_proven_star(g); ++k) {
+                const auto c = static_cast<Index>(groups_.first_cell(g) + k);
+                if (degenerate(corners_of<D, D + 1>(cells_[c], points_))) {
+                    result_.crossings.push_back({c, c, points_[cells_[c][0]]});
+                    degenerate_.push_back(c);
+                }
+            }
+        }
+        std::sort(degenerate_.begin(), degenerate_.end());
+    }
+
+    /// Calls work(item, piece) for all items. In rounds that grow, so that a hull which crosses itself
+    /// everywhere ends soon, with the same result for any number of threads.
+    void in_rounds(std::size_t count, const std::function<void(std::size_t item, Piece<D>&)>& work) {
+        std::size_t round = 2;
+        for (std::size_t first = 0; first < count && result_.crossings.size() <= limit_; first += round) {
+            round = first == 0 ? round : std::min<std::size_t>(2 * round, 1 << 14);
+            const std::size_t grain = std::max<std::size_t>(1, round / 1024);
+            const std::size_t items = std::min(round, count - first);
+            std::vector<Piece<D>> pieces((items + grain - 1) / grain);
+            parallel_for(items, grain, [&](std::size_t begin, std::size_t end) {
+                Piece<D>& piece = pieces[begin / grain];
+                for (std::size_t k = begin; k < end && piece.pairs.crossings.size() <= limit_; ++k) {
+                    work(first + k, piece);
+                }
+            });
+            std::for_each(pieces.begin(), pieces.end(), [&](const Piece<D>& piece) { add(piece); });
+        }
+    }
+
+    void add(const Piece<D>& piece) {
+        const auto& found = piece.pairs.crossings;
+        result_.crossings.insert(result_.crossings.end(), found.begin(), found.end());
+        result_.group_pairs += piece.group_pairs;
+        result_.tested_pairs += piece.pairs.tested;
+        result_.exact_pairs += piece.pairs.exact;
+    }
+
+    void pair_within_stars() {
+        in_rounds(centres_.size(), [&](std::size_t k, Piece<D>& piece) {
+            const auto groups = groups_.tested_groups_of(centres_[k]);
+            for (std::size_t i = 0; i < groups.size(); ++i) {
+                for (std::size_t j = i; j < groups.size(); ++j) {
+                    if (is_due(groups[i], groups[j], centres_[k])) {
+                        pair_cells(groups[i], groups[j], piece);
+                    }
                 }
             }
         });
-        for (std::size_t k = 0; k < boxes.size(); ++k) {
-            if (boxes[k].empty()) {
-                const Index c = selected_[k];
-                result_.crossings.push_back({c, c, points_[cells_[c][0]]});
+    }
+
+    /// Whether no star proves anything of two groups and `centre` is the first of those that they share.
+    bool is_due(Index first, Index second, Index centre) const {
+        const auto f = groups_.vertices(first);
+        const auto g = groups_.vertices(second);
+        return std::all_of(f.begin(), f.end(), [&](Index v) {
+            return star_of_[v] == Star::none || (star_of_[v] == Star::open && v >= centre) ||
+                   !std::binary_search(g.begin(), g.end(), v);
+        });
+    }
+
+    /// Pairs whose boxes meet, of two groups or within one.
+    void pair_cells(Index first, Index second, Piece<D>& piece) const {
+        std::array<Box<D + 1>, CellGroups<D>::most_cells> boxes;
+        const Index f = groups_.first_cell(first);
+        const Index g = groups_.first_cell(second);
+        const std::size_t of_f = groups_.cell_count(first);
+        for (std::size_t i = 0; i < of_f; ++i) {
+            boxes[i] = extended_box(static_cast<Index>(f + i));
+        }
+        for (std::size_t j = 0; j < groups_.cell_count(second); ++j) {
+            const auto other = static_cast<Index>(g + j);
+            const Box<D + 1> box = extended_box(other);
+            for (std::size_t i = 0; i < (first == second ? j : of_f); ++i) {
+                if (boxes[i].meets(box) && piece.pairs.crossings.size() <= limit_) {
+                    cell_pairs_.decide(static_cast<Index>(f + i), other, piece.pairs);
+                }
             }
         }
+    }
+
+    /// An empty one, which meets nothing, for a cell without extent.
+    Box<D + 1> extended_box(Index cell) const {
+        const bool none = std::binary_search(degenerate_.begin(), degenerate_.end(), cell);
+        return none ? Box<D + 1>{} : box_of<D>(cells_[cell], points_);
+    }
+
+    Array<Box<D + 1>> group_boxes() const {
+        Array<Box<D + 1>> boxes;
+        boxes.assign(groups_.tested(), Box<D + 1>{});
+        parallel_for(boxes.size(), 1 << 12, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t g = begin; g < end; ++g) {
+                for (const Index v : groups_.vertices(g)) {
+                    boxes[g].include(points_[v]);
+                }
+            }
+        });
         return boxes;
     }
 
-    /// One over the mean extent of the cells along each axis, to the next power of two.
-    void find_scale(const Array<Box<D + 1>>& boxes) {
-        for (std::size_t axis = 0; axis <= D; ++axis) {
-            double sum = 0;
-            for (const Box<D + 1>& box : boxes) {
-                sum += box.empty() ? 0 : box.high[axis] - box.low[axis];
-            }
-            const double mean = sum / static_cast<double>(boxes.size());
-            const int exponent = std::isfinite(mean) && mean > 0 ? std::ilogb(mean) : 0;
-            scale_[axis] = std::ldexp(1.0, std::clamp(-exponent, -500, 500));
-        }
-    }
-
-    /// In rounds, so that a hull which crosses itself everywhere ends soon, with the same result for any
-    /// number of threads.
-    void search(const BoxTree<D + 1>& tree) {
-        constexpr std::size_t round = std::size_t{1} << 14; // blocks
-        for (std::size_t begin = 0; begin < tree.blocks() && result_.crossings.size() <= limit_;
-             begin += round) {
-            search_round(tree, begin, std::min(begin + round, tree.blocks()));
-        }
-    }
-
-    void search_round(const BoxTree<D + 1>& tree, std::size_t first, std::size_t last) {
-        constexpr std::size_t grain = 64;
-        std::vector<Piece<D>> pieces((last - first + grain - 1) / grain);
-        parallel_for(last - first, grain, [&](std::size_t begin, std::size_t end) {
-            pieces[begin / grain] = search_blocks(tree, first + begin, first + end);
-        });
-        for (const Piece<D>& piece : pieces) {
-            result_.crossings.insert(result_.crossings.end(), piece.crossings.begin(), piece.crossings.end());
-            result_.tested_pairs += piece.tested;
-            result_.exact_pairs += piece.exact;
-        }
-    }
-
-    Piece<D> search_blocks(const BoxTree<D + 1>& tree, std::size_t begin, std::size_t end) const {
-        Piece<D> piece;
-        for (std::size_t block = begin; block < end && piece.crossings.size() <= limit_; ++block) {
-            tree.find_pairs(block, [&](Index a, Index b) {
-                if (piece.crossings.size() <= limit_) {
-                    const auto [first, second] = std::minmax(selected_[a], selected_[b]);
-                    decide(first, second, piece);
+    /// Groups that touch are left out: they are in a star.
+    void pair_apart() {
+        const BoxTree<D + 1> tree{group_boxes()};
+        in_rounds(tree.blocks(), [&](std::size_t block, Piece<D>& piece) {
+            VertexCloud<D + 1> a;
+            VertexCloud<D + 1> b;
+            Index of_a = no_index;
+            Index of_b = no_index;
+            tree.find_pairs(block, [&](Index first, Index second) {
+                if (piece.pairs.crossings.size() > limit_ || touch(first, second)) {
+                    return;
+                }
+                if (std::exchange(of_a, first) != first) {
+                    a.assign(groups_.vertices(first), points_, scale_);
+                }
+                if (std::exchange(of_b, second) != second) {
+                    b.assign(groups_.vertices(second), points_, scale_);
+                }
+                ++piece.group_pairs;
+                if (!proven_parted(a, b)) {
+                    pair_cells(first, second, piece);
                 }
             });
-        }
-        return piece;
+        });
     }
 
-    /// The shared vertices first, in the same order.
-    FacetPair<D + 1> pair_of(Index first, Index second) const {
-        Simplex<D> f = cells_[first];
-        Simplex<D> g = cells_[second];
-        FacetPair<D + 1> pair;
-        for (std::size_t i = 0; i <= D; ++i) {
-            const auto twin = std::find(g.begin() + pair.shared, g.end(), f[i]);
-            if (twin != g.end()) {
-                std::swap(f[i], f[pair.shared]);
-                std::swap(*twin, g[pair.shared]);
-                ++pair.shared;
+    bool touch(Index first, Index second) const {
+        const auto f = groups_.vertices(first);
+        const auto g = groups_.vertices(second);
+        for (std::size_t i = 0, j = 0; i < f.size() && j < g.size();) {
+            if (f[i] == g[j]) {
+                return true;
             }
+            f[i] < g[j] ? ++i : ++j;
         }
-        pair.f = corners_of<D, D + 1>(f, points_);
-        pair.g = corners_of<D, D + 1>(g, points_);
-        return pair;
-    }
-
-    void decide(Index first, Index second, Piece<D>& piece) const {
-        const FacetPair<D + 1> pair = pair_of(first, second);
-        ++piece.tested;
-        if (const auto place = meeting(pair, piece)) {
-            piece.crossings.push_back({first, second, *place});
-        }
-    }
-
-    std::optional<Point<3>> meeting(const FacetPair<3>& pair, Piece<D>&) const {
-        return meet_elsewhere(pair) ? std::optional{meeting_place(pair)} : std::nullopt;
-    }
-
-    std::optional<Point<4>> meeting(const FacetPair<4>& pair, Piece<D>& piece) const {
-        if (pair.shared == 4) {
-            return pair.f[0];
-        }
-        if (proven_apart(pair, scale_)) {
-            return {};
-        }
-        ++piece.exact;
-        return common_point(pair);
+        return false;
     }
 
     void finish() {
@@ -207,25 +236,32 @@ private:
         }
     }
 
+    enum class Star : char { none, open, proven };
+
     std::span<const Point<D + 1>> points_;
     std::span<const Simplex<D>> cells_;
+    AdjacencyView<D> adjacency_;
     std::size_t limit_;
-    std::vector<Index> selected_; ///< cells that are paired
-    Point<D + 1> scale_{};
+    Point<D + 1> scale_;
+    CellPairs<D> cell_pairs_;
     HullEmbedding<D> result_;
+    CellGroups<D> groups_;
+    std::vector<Index> centres_; ///< of stars; then of those not proven
+    Array<Star> star_of_;        ///< by vertex
+    std::vector<Index> degenerate_;
 };
 
 } // namespace
 
 template<int D>
 HullEmbedding<D> examine_embedding(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-                                   const Adjacency<D>& adjacency, std::size_t limit) {
-    return EmbeddingSearch<D>{points, cells, limit}.run(adjacency);
+                                   const AdjacencyView<D>& adjacency, std::size_t limit) {
+    return EmbeddingSearch<D>{points, cells, adjacency, limit}.run();
 }
 
 template HullEmbedding<2> examine_embedding<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
-                                               const Adjacency<2>&, std::size_t);
+                                               const AdjacencyView<2>&, std::size_t);
 template HullEmbedding<3> examine_embedding<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
-                                               const Adjacency<3>&, std::size_t);
+                                               const AdjacencyView<3>&, std::size_t);
 
 } // namespace slabhull

@@ -66,6 +66,7 @@ private:
         const std::span<const Neighbors<D>> table = view_.hull.neighbor_table;
         if (auto report = confirm_manifold<D>(view_.cells(), vertices, table)) {
             confirmed_ = true;
+            report_.table_confirmed = true;
             view_.adjacency = AdjacencyView<D>{table};
             return *std::move(report);
         }

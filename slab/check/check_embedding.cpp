@@ -18,7 +18,7 @@ namespace {
 
 /// Crossings that are looked for, so that they can be counted; a body that moves through another has
 /// thousands.
-constexpr std::size_t most_crossings = 1000;
+constexpr std::size_t most_crossings = 300;
 
 template<int D>
 class CrossingNames {
@@ -62,6 +62,16 @@ private:
     const Findings& findings_;
 };
 
+template<int D>
+HullEmbedding<D> examine(const HullColumns<D>& hull, bool table_confirmed) {
+    if (table_confirmed) {
+        return examine_embedding<D>(hull.points, hull.cells, AdjacencyView<D>{hull.neighbor_table},
+                                    most_crossings);
+    }
+    const Adjacency<D> adjacency = build_adjacency<D>(hull.cells, hull.points.size());
+    return examine_embedding<D>(hull.points, hull.cells, adjacency, most_crossings);
+}
+
 } // namespace
 
 template<int D>
@@ -73,8 +83,7 @@ std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, cons
                       "there are no cells, or cells and coordinates that geometry does not apply to");
         return {};
     }
-    const Adjacency<D> adjacency = build_adjacency<D>(hull.cells, hull.points.size());
-    const HullEmbedding<D> found = examine_embedding<D>(hull.points, hull.cells, adjacency, most_crossings);
+    const HullEmbedding<D> found = examine(hull, report.table_confirmed);
     const CrossingNames<D> names{hull, findings};
     for (const Crossing<D + 1>& crossing : found.crossings) {
         if (crossing.first != crossing.second) {
@@ -86,6 +95,9 @@ std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, cons
                             found.all_listed,
                             found.caps_proven,
                             found.tested_cells,
+                            found.stars,
+                            found.proven_stars,
+                            found.group_pairs,
                             found.tested_pairs,
                             found.exact_pairs};
 }

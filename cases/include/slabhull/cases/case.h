@@ -136,6 +136,8 @@ struct Case {
     CapReuse cap_reuse = CapReuse::none;
     double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
 
+    bool check_embedding = true; ///< a hull that is not proven to cross itself nowhere is refused
+
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};
     std::map<std::string, io::WriteOptions> writing; ///< how, by format

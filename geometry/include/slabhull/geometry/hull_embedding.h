@@ -21,7 +21,10 @@ struct HullEmbedding {
     /// Both caps were proven to be embedded as a whole, so that only the side's cells were paired.
     bool caps_proven = false;
     std::size_t tested_cells = 0;
-    std::size_t tested_pairs = 0; ///< of cells whose boxes meet
+    std::size_t stars = 0; ///< groups of cells around a vertex, that cover all cells that touch
+    std::size_t proven_stars = 0;
+    std::size_t group_pairs = 0;  ///< of groups that do not touch, but whose boxes meet
+    std::size_t tested_pairs = 0; ///< of cells: in stars and pairs of groups that were not proven as a whole
     std::size_t exact_pairs = 0;  ///< of those: left to rational arithmetic (D = 3)
 };
 
@@ -37,11 +40,11 @@ struct HullEmbedding {
 /// The result does not depend on the number of threads.
 template<int D>
 HullEmbedding<D> examine_embedding(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-                                   const Adjacency<D>& adjacency, std::size_t limit = 100);
+                                   const AdjacencyView<D>& adjacency, std::size_t limit = 100);
 
 extern template HullEmbedding<2> examine_embedding<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
-                                                      const Adjacency<2>&, std::size_t);
+                                                      const AdjacencyView<2>&, std::size_t);
 extern template HullEmbedding<3> examine_embedding<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
-                                                      const Adjacency<3>&, std::size_t);
+                                                      const AdjacencyView<3>&, std::size_t);
 
 } // namespace slabhull

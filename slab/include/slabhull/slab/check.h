@@ -142,6 +142,7 @@ struct PatchCount {
 struct HullReport : CheckResult {
     int dimension = 0;
     ManifoldCounts counts;
+    bool table_confirmed = false;                 ///< the neighbor_table was given and found right
     std::array<double, 2> time{};                 ///< as the vertices show it
     std::array<std::size_t, 3> cells_by_region{}; ///< as the vertices' times show it
     std::vector<PatchCount> cells_by_patch;       ///< of the side, by number, as claimed

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "geometry/embedding/embedded_caps.h"
+
+#include "slabhull/core/array.h"
+#include "slabhull/core/point.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace slabhull {
+
+/// Cells of a hull in groups of consecutive ones: the simplices of a prism where they stand together, as they
+/// do in hulls of ours and in files of them, else single cells. Which cells make a group is a matter of speed
+/// only.
+///
+/// The first `tested` groups hold the cells that are to be tested. Behind them stand, one by one, the other
+/// cells that have a vertex in common with these.
+template<int D>
+class CellGroups {
+public:
+    /// A cell by the places of its vertices in the list of its group.
+    struct LocalCell {
+        std::array<std::uint8_t, D + 1> corner;
+        std::uint8_t outer; ///< bit i: facet i is not one of two cells of the group
+    };
+    static constexpr std::size_t most_cells = D == 2 ? 4 : 14;
+
+    /// `test` by cell.
+    CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
+               std::span<const Neighbors<D>> neighbors, const std::vector<bool>& test);
+
+    std::size_t tested() const { return tested_; }
+    std::size_t count() const { return first_cell_.size() - 1; }
+
+    Index first_cell(std::size_t group) const { return first_cell_[group]; }
+    std::size_t cell_count(std::size_t group) const { return first_local_[group + 1] - first_local_[group]; }
+    std::span<const LocalCell> cells(std::size_t group) const {
+        return {local_.data() + first_local_[group], cell_count(group)};
+    }
+    /// Ascending.
+    std::span<const Index> vertices(std::size_t group) const {
+        return {vertices_.data() + first_vertex_[group], first_vertex_[group + 1] - first_vertex_[group]};
+    }
+    /// Those that have the vertex, ascending.
+    std::span<const Index> groups_of(Index vertex) const {
+        return {groups_.data() + first_group_[vertex], first_group_[vertex + 1] - first_group_[vertex]};
+    }
+    std::span<const Index> tested_groups_of(Index vertex) const;
+
+private:
+    void find_prisms(const std::vector<bool>& test);
+    void add_touching(const std::vector<bool>& test);
+    void add_group(std::size_t first, std::size_t count);
+    void list_vertices();
+    void list_groups(std::size_t vertex_count);
+
+    std::span<const Simplex<D>> all_cells_;
+    std::span<const Neighbors<D>> neighbors_;
+    std::size_t tested_ = 0;
+    Array<Index> first_cell_;
+    Array<std::size_t> first_local_;
+    Array<LocalCell> local_;
+    Array<std::size_t> first_vertex_;
+    Array<Index> vertices_;
+    Array<std::size_t> first_group_;
+    Array<Index> groups_;
+};
+
+extern template class CellGroups<2>;
+extern template class CellGroups<3>;
+
+} // namespace slabhull

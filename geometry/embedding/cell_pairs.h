@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "geometry/embedding/box_tree.h"
+#include "geometry/embedding/facet_pair.h"
+
+#include "slabhull/core/point.h"
+#include "slabhull/geometry/embedding.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace slabhull {
+
+/// Whether a D-simplex in R^(D+1) has no extent. Exact.
+bool degenerate(const std::array<Point<3>, 3>& triangle);
+bool degenerate(const std::array<Point<4>, 4>& tetrahedron);
+
+template<int D>
+Box<D + 1> box_of(const Simplex<D>& cell, std::span<const Point<D + 1>> points) {
+    Box<D + 1> box;
+    for (const Index v : cell) {
+        box.include(points[v]);
+    }
+    return box;
+}
+
+/// One over the mean extent of some cells along each axis, to the next power of two: what was a length and
+/// what was a time are then of like size. No result depends on it, only how soon a search finds one.
+template<int D>
+Point<D + 1> scale_of_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells);
+
+/// The cells that were found to cross, and what it took.
+template<int D>
+struct PairTally {
+    std::vector<Crossing<D + 1>> crossings;
+    std::size_t tested = 0;
+    std::size_t exact = 0; ///< left to rational arithmetic
+};
+
+/// Decides pairs of non-degenerate cells one by one, exactly.
+template<int D>
+class CellPairs {
+public:
+    CellPairs(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+              const Point<D + 1>& scale)
+        : points_{points}, cells_{cells}, scale_{scale} {}
+
+    /// Adds the pair to `tally`, and to its crossings when the two have a point in common off the face of the
+    /// vertices that they share.
+    void decide(Index first, Index second, PairTally<D>& tally) const;
+
+private:
+    FacetPair<D + 1> pair_of(Index first, Index second) const;
+
+    std::span<const Point<D + 1>> points_;
+    std::span<const Simplex<D>> cells_;
+    Point<D + 1> scale_;
+};
+
+extern template Point<3> scale_of_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
+extern template Point<4> scale_of_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
+extern template class CellPairs<2>;
+extern template class CellPairs<3>;
+
+} // namespace slabhull

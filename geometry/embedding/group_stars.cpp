@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/embedding/group_stars.h"
+
+#include "slabhull/core/parallel.h"
+#include "slabhull/core/vector.h"
+#include "slabhull/geometry/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace slabhull {
+
+namespace {
+
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+
+double determinant(const Point<2>& o, const Point<2>& a, const Point<2>& b) {
+    return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+}
+double determinant(const Point<3>& o, const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+    const double ax = a[0] - o[0], ay = a[1] - o[1], az = a[2] - o[2];
+    const double bx = b[0] - o[0], by = b[1] - o[1], bz = b[2] - o[2];
+    const double cx = c[0] - o[0], cy = c[1] - o[1], cz = c[2] - o[2];
+    return ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
+}
+
+} // namespace
+
+/// The proof for one vertex after the other; keeps its memory.
+template<int D>
+class StarProof {
+public:
+    explicit StarProof(const GroupStars<D>& stars) : s_{stars} {}
+
+    bool holds(Index v) {
+        collect(v);
+        Point<D + 1> direction{};
+        for (const Index g : groups_) {
+            for (std::size_t k = 0; k <= D; ++k) {
+                direction[k] += static_cast<double>(s_.normals_[g][k]);
+            }
+        }
+        return holds_along(direction) || (steer(direction) && holds_along(direction));
+    }
+
+private:
+    using Place = Point<D>;
+    /// Numbers of places: the vertices of a cell, or of the simplex of v, number 0, and a facet of the
+    /// border.
+    struct Corners {
+        std::array<std::uint32_t, D + 1> at;
+        std::size_t apex; ///< where 0 stands
+    };
+
+    void collect(Index v) {
+        v_ = v;
+        groups_ = s_.groups_.groups_of(v);
+        first_.clear();
+        cells_.clear();
+        for (const Index g : groups_) {
+            first_.push_back(s_.groups_.first_cell(g));
+            cells_.push_back(static_cast<Index>(s_.groups_.cell_count(g)));
+        }
+    }
+
+    bool holds_along(const Point<D + 1>& direction) {
+        return project(direction) && keeps_orientation() && covers_once();
+    }
+
+    /// Places of all vertices from that of v, projected along `direction` onto the coordinates other than the
+    /// one it is steepest on. False when the numbers are out of the range in which the bounds hold.
+    ///
+    /// The slopes are exact by being what they are: they define the direction. With u the unit roundoff and
+    /// m[j] the largest |x_j| + |slope_j x_k| of all places, a computed coordinate j is within 3.1 u m[j] of
+    /// the true one: one rounding of each difference, one of the product, one of the sum. The difference of
+    /// two is within 8.2 u m[j] of the true one and not larger than 2 m[j]. A determinant is a sum of six
+    /// products of three of these (two of two), each off by 99 u times the product of the m by its factors
+    /// and by 48 u times it by its own roundings: 882 u in all. What is lost to underflow is far less, as the
+    /// m are kept from being tiny or huge.
+    bool project(const Point<D + 1>& direction) {
+        std::size_t axis = 0;
+        for (std::size_t k = 1; k <= D; ++k) {
+            axis = std::abs(direction[k]) > std::abs(direction[axis]) ? k : axis;
+        }
+        std::array<std::size_t, D> kept;
+        Place slope;
+        for (std::size_t j = 0; j < D; ++j) {
+            kept[j] = (axis + 1 + j) % (D + 1);
+            slope[j] = direction[kept[j]] / s_.scale_[kept[j]] * s_.scale_[axis] / direction[axis];
+        }
+        const Point<D + 1>& origin = s_.points_[v_];
+        Place largest{};
+        places_.assign(1, Place{});
+        for (const Index g : groups_) {
+            for (const Index w : s_.groups_.vertices(g)) {
+                const Point<D + 1>& p = s_.points_[w];
+                const double along = p[axis] - origin[axis];
+                Place& place = places_.emplace_back();
+                for (std::size_t j = 0; j < D; ++j) {
+                    const double x = p[kept[j]] - origin[kept[j]];
+                    const double shift = slope[j] * along;
+                    place[j] = x - shift;
+                    largest[j] = std::max(largest[j], std::abs(x) + std::abs(shift));
+                }
+            }
+        }
+        tolerance_ = 1024 * unit_roundoff;
+        bool in_range = true;
+        for (std::size_t j = 0; j < D; ++j) {
+            tolerance_ *= largest[j];
+            in_range = in_range && std::isfinite(slope[j]) && largest[j] > 1e-60 && largest[j] < 1e60;
+        }
+        return in_range;
+    }
+
+    /// Points 1 and 2 of the proof; lists the border.
+    bool keeps_orientation() {
+        border_.clear();
+        sign_ = 0;
+        std::uint32_t offset = 1;
+        for (std::size_t k = 0; k < groups_.size(); ++k) {
+            const auto cells = s_.groups_.cells(groups_[k]);
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                Corners corners;
+                for (std::size_t i = 0; i <= D; ++i) {
+                    corners.at[i] = offset + cells[c].corner[i];
+                }
+                if (!is_positive(corners) || !sees_border(first_[k] + c, cells[c].outer, corners)) {
+                    return false;
+                }
+            }
+            offset += static_cast<std::uint32_t>(s_.groups_.vertices(groups_[k]).size());
+        }
+        return true;
+    }
+
+    /// Facets with v are never in the border: all cells that have v are here.
+    bool sees_border(std::size_t cell, unsigned outer, const Corners& corners) {
+        const Simplex<D>& vertices = s_.cells_[cell];
+        const auto own = std::find(vertices.begin(), vertices.end(), v_) - vertices.begin();
+        if (own <= D) {
+            outer &= 1u << own;
+        }
+        for (std::size_t i = 0; i <= D; ++i) {
+            if ((outer >> i & 1u) == 0 || is_here(s_.neighbors_[cell][i])) {
+                continue;
+            }
+            Corners seen = corners;
+            seen.at[i] = 0;
+            seen.apex = i;
+            if (!is_positive(seen)) {
+                return false;
+            }
+            border_.push_back(seen);
+        }
+        return true;
+    }
+
+    /// Groups are few but around the hubs of meshes.
+    bool is_here(Index cell) const {
+        if (groups_.size() > 64) {
+            return is_here_by_search(cell);
+        }
+        bool here = false;
+        for (std::size_t k = 0; k < first_.size(); ++k) {
+            here |= cell - first_[k] < cells_[k];
+        }
+        return here;
+    }
+    bool is_here_by_search(Index cell) const {
+        const auto tested = std::lower_bound(groups_.begin(), groups_.end(), s_.groups_.tested());
+        const auto middle = first_.begin() + (tested - groups_.begin());
+        const auto in = [&](auto begin, auto end) {
+            const auto next = std::upper_bound(begin, end, cell);
+            return next != begin &&
+                   cell - next[-1] < cells_[static_cast<std::size_t>(next - first_.begin()) - 1];
+        };
+        return in(first_.begin(), middle) || in(middle, first_.end());
+    }
+
+    double orientation(const std::array<std::uint32_t, D + 1>& at) const {
+        if constexpr (D == 2) {
+            return determinant(places_[at[0]], places_[at[1]], places_[at[2]]);
+        } else {
+            return determinant(places_[at[0]], places_[at[1]], places_[at[2]], places_[at[3]]);
+        }
+    }
+
+    /// Surely of the same sign as the first that was asked for.
+    bool is_positive(const Corners& corners) {
+        const double value = orientation(corners.at);
+        if (sign_ == 0) {
+            sign_ = value > 0 ? 1 : -1;
+        }
+        return sign_ * value > tolerance_;
+    }
+
+    /// Point 3 of the proof, with the middle of one or another facet of the border for the direction.
+    bool covers_once() {
+        constexpr std::size_t tries = 4;
+        places_.emplace_back();
+        for (std::size_t k = 0; k < tries && !border_.empty(); ++k) {
+            const std::size_t facet = k * border_.size() / tries;
+            Place middle{};
+            for (const std::uint32_t w : border_[facet].at) {
+                for (std::size_t j = 0; j < D; ++j) {
+                    middle[j] += places_[w][j] / D;
+                }
+            }
+            places_.back() = middle;
+            if (lies_in(border_[facet]) && is_alone(facet)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    bool is_alone(std::size_t facet) const {
+        for (std::size_t other = 0; other < border_.size(); ++other) {
+            if (other != facet && !lies_off(border_[other])) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// Of the simplex over a facet, with the direction in place of vertex i. Its place has no error and is no
+    /// larger than the others, so the bound holds.
+    double side(const Corners& facet, std::size_t i) const {
+        auto at = facet.at;
+        at[i] = static_cast<std::uint32_t>(places_.size() - 1);
+        return sign_ * orientation(at);
+    }
+    bool lies_in(const Corners& facet) const {
+        bool in = true;
+        for (std::size_t i = 0; i <= D; ++i) {
+            in = in && (i == facet.apex || side(facet, i) > tolerance_);
+        }
+        return in;
+    }
+    bool lies_off(const Corners& facet) const {
+        for (std::size_t i = 0; i <= D; ++i) {
+            if (i != facet.apex && side(facet, i) < -tolerance_) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// Turns `direction` to have all normals on its side, by the relaxation method (Motzkin and Schoenberg,
+    /// Canad. J. Math. 6, 1954). False when that does not succeed soon.
+    bool steer(Point<D + 1>& direction) {
+        constexpr int most_steps = 100;
+        constexpr std::size_t most_cells = 4096;
+        find_unit_normals();
+        if (unit_normals_.size() > most_cells) {
+            return false;
+        }
+        for (int step = 0; step < most_steps; ++step) {
+            const double length = std::sqrt(dot(direction, direction));
+            const Point<D + 1>* worst = nullptr;
+            double least = 0.02 * length; // not only just
+            for (const Point<D + 1>& normal : unit_normals_) {
+                const double along = dot(direction, normal);
+                if (along < least) {
+                    least = along;
+                    worst = &normal;
+                }
+            }
+            if (worst == nullptr) {
+                return step > 0;
+            }
+            for (std::size_t k = 0; k <= D; ++k) {
+                direction[k] += (2 * std::abs(least) + 0.05 * length) * (*worst)[k];
+            }
+        }
+        return false;
+    }
+
+    void find_unit_normals() {
+        unit_normals_.clear();
+        for (std::size_t k = 0; k < groups_.size(); ++k) {
+            for (std::size_t c = first_[k]; c < first_[k] + cells_[k]; ++c) {
+                Point<D + 1> normal = s_.scaled_normal(c);
+                const double length = std::sqrt(dot(normal, normal));
+                for (double& x : normal) {
+                    x /= length;
+                }
+                unit_normals_.push_back(normal);
+            }
+        }
+    }
+
+    const GroupStars<D>& s_;
+    Index v_ = 0;
+    std::span<const Index> groups_;
+    std::vector<Index> first_; ///< cell of each group
+    std::vector<Index> cells_; ///< how many each has
+    std::vector<Place> places_;
+    std::vector<Corners> border_;
+    std::vector<Point<D + 1>> unit_normals_;
+    double tolerance_ = 0;
+    double sign_ = 0;
+};
+
+template<int D>
+GroupStars<D>::GroupStars(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+                          std::span<const Neighbors<D>> neighbors, const CellGroups<D>& groups,
+                          const Point<D + 1>& scale)
+    : points_{points}, cells_{cells}, neighbors_{neighbors}, groups_{groups}, scale_{scale} {
+    normals_.resize(groups.count());
+    parallel_for(groups.count(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t g = begin; g < end; ++g) {
+            normals_[g] = group_normal(g);
+        }
+    });
+}
+
+template<int D>
+Point<D + 1> GroupStars<D>::scaled_normal(std::size_t cell) const {
+    auto corners = corners_of<D, D + 1>(cells_[cell], points_);
+    for (auto& corner : corners) {
+        for (std::size_t k = 0; k <= D; ++k) {
+            corner[k] *= scale_[k];
+        }
+    }
+    return simplex_normal<D>(corners);
+}
+
+template<int D>
+std::array<float, D + 1> GroupStars<D>::group_normal(std::size_t group) const {
+    Point<D + 1> sum{};
+    for (std::size_t c = 0; c < groups_.cell_count(group); ++c) {
+        const Point<D + 1> normal = scaled_normal(groups_.first_cell(group) + c);
+        for (std::size_t k = 0; k <= D; ++k) {
+            sum[k] += normal[k];
+        }
+    }
+    const double length = std::sqrt(dot(sum, sum));
+    std::array<float, D + 1> unit;
+    for (std::size_t k = 0; k <= D; ++k) {
+        unit[k] = static_cast<float>(sum[k] / length);
+    }
+    return unit;
+}
+
+template<int D>
+std::vector<char> GroupStars<D>::prove(std::span<const Index> vertices) const {
+    std::vector<char> proven(vertices.size());
+    parallel_for(vertices.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        StarProof<D> proof{*this};
+        for (std::size_t k = begin; k < end; ++k) {
+            proven[k] = proof.holds(vertices[k]);
+        }
+    });
+    return proven;
+}
+
+namespace {
+
+/// Whether another vertex has all tested groups that v has, and may stand for it.
+template<int D>
+bool is_covered(const CellGroups<D>& groups, Index v) {
+    const auto own = groups.tested_groups_of(v);
+    if (own.size() > 2) {
+        return false; // seldom, and not worth the search
+    }
+    const auto around = groups.vertices(own.front());
+    return std::any_of(around.begin(), around.end(), [&](Index w) {
+        const auto other = groups.tested_groups_of(w);
+        const bool stands = other.size() > own.size() || (other.size() == own.size() && w < v);
+        return stands && std::includes(other.begin(), other.end(), own.begin(), own.end());
+    });
+}
+
+} // namespace
+
+template<int D>
+std::vector<Index> star_centres(const CellGroups<D>& groups, std::size_t vertex_count) {
+    constexpr std::size_t grain = 1 << 14;
+    std::vector<std::vector<Index>> pieces((vertex_count + grain - 1) / grain);
+    parallel_for(vertex_count, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto v = static_cast<Index>(k);
+            if (!groups.tested_groups_of(v).empty() && !is_covered(groups, v)) {
+                pieces[begin / grain].push_back(v);
+            }
+        }
+    });
+    std::vector<Index> centres;
+    for (const auto& piece : pieces) {
+        centres.insert(centres.end(), piece.begin(), piece.end());
+    }
+    return centres;
+}
+
+template class GroupStars<2>;
+template class GroupStars<3>;
+template std::vector<Index> star_centres<2>(const CellGroups<2>&, std::size_t);
+template std::vector<Index> star_centres<3>(const CellGroups<3>&, std::size_t);
+
+} // namespace slabhull
