@@ -83,9 +83,13 @@ Soup read_avro(const std::filesystem::path& path);
 /// become groups without names.
 Soup read_mfem(const std::filesystem::path& path);
 
-/// A surface of triangles from STL, OFF, OBJ or PLY, by extension; faces as they come, however they meet.
-/// Polygons are refused. Vertices of an STL, which has no other notion of connectivity, are in single
-/// precision and welded where equal; facets that collapse by it are left out. The others keep double
+/// A surface from STL, OFF, OBJ or PLY, by extension; faces as they come, however they meet. Planar polygons
+/// (to rounding) are cut into triangles, with a remark and, as tags, the file's numbers of the faces from 0;
+/// others are refused. Groups: the solids of an STL; the groups (`g`), else objects (`o`), else materials
+/// (`usemtl`) of an OBJ, the first of which there are several or, where there is one of each, at all; the
+/// values of a PLY's whole-numbered face property `patch`, `group`, `region`, `zone`, `part` or
+/// `material_index`. Vertices of an STL, which has no other notion of connectivity, are in single precision
+/// and welded where equal; facets that collapse by it are left out, with a remark. The others keep double
 /// precision and their numbering.
 Soup read_surface(const std::filesystem::path& path);
 /// The same, whatever the name: `extension` is ".stl", ".off", ".obj" or ".ply".
