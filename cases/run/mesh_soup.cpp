@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/mesh_soup.h"
 
+#include "cases/case/patch_names.h"
+#include "cases/run/file_facets.h"
+#include "cases/run/used_points.h"
+
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/embedding.h"
 #include "slabhull/geometry/measures.h"
@@ -9,41 +13,12 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 
 namespace slabhull {
 
 namespace {
-
-/// The points that some simplices use, in their order, and the way from the soup's numbers to theirs.
-template<int D>
-struct UsedPoints {
-    Array<Point<D>> points;
-    std::vector<Index> number; ///< of each soup point; no_index when unused
-
-    UsedPoints(const io::Soup& soup, std::span<const Index> vertices) : number(soup.points.size(), no_index) {
-        for (const Index v : vertices) {
-            number[v] = 0;
-        }
-        for (std::size_t v = 0; v < number.size(); ++v) {
-            if (number[v] == 0) {
-                number[v] = static_cast<Index>(points.size());
-                points.push_back(point_in_space<D>(soup, v));
-            }
-        }
-    }
-};
-
-template<int K>
-Array<Simplex<K>> renumbered(const io::SimplexBlock& block, const std::vector<Index>& number) {
-    Array<Simplex<K>> simplices(block.size(K));
-    for (std::size_t i = 0; i < simplices.size(); ++i) {
-        for (std::size_t k = 0; k <= K; ++k) {
-            simplices[i][k] = number[block.vertices[i * (K + 1) + k]];
-        }
-    }
-    return simplices;
-}
 
 std::string listed(const std::vector<std::int64_t>& numbers) {
     const std::size_t shown = std::min<std::size_t>(numbers.size(), 8);
@@ -65,8 +40,10 @@ std::string listed(const std::vector<std::int64_t>& numbers) {
 template<int D>
 class DomainBuilder {
 public:
-    DomainBuilder(const io::Soup& soup, const Listener& listener)
-        : soup_{soup}, listener_{listener}, block_{soup.simplices[D]} {}
+    DomainBuilder(const io::Soup& soup, const DomainOptions& options, const Listener& listener)
+        : soup_{soup}, options_{options}, listener_{listener},
+          chosen_{options.regions.empty() ? io::SimplexBlock{} : cells_of_regions<D>(soup, options.regions)},
+          block_{options.regions.empty() ? soup.simplices[D] : chosen_} {}
 
     SpatialMesh<D> run() {
         if (block_.size(D) == 0) {
@@ -139,20 +116,8 @@ private:
         mesh_.neighbors = std::move(adjacency.neighbors);
     }
 
-    /// The facets of the file by their vertices, to look up groups and numbers.
-    std::map<Facet<D>, std::size_t> facets_by_vertices(const std::vector<Index>& number) const {
-        std::map<Facet<D>, std::size_t> facets;
-        const auto listed_facets = renumbered<D - 1>(soup_.simplices[D - 1], number);
-        for (std::size_t f = 0; f < listed_facets.size(); ++f) {
-            Facet<D> key = listed_facets[f];
-            std::sort(key.begin(), key.end());
-            facets.emplace(key, f);
-        }
-        return facets;
-    }
-
     void find_patches(const std::vector<Index>& number) {
-        const auto facets = facets_by_vertices(number);
+        FileFacets<D> facets{soup_, number};
         const io::SimplexBlock& block = soup_.simplices[D - 1];
         for (Index c = 0; c < mesh_.cells.size(); ++c) {
             for (int i = 0; i <= D; ++i) {
@@ -160,45 +125,52 @@ private:
                     continue;
                 }
                 const Facet<D> facet = outward_facet<D>(mesh_.cells[c], i);
-                Facet<D> key = facet;
-                std::sort(key.begin(), key.end());
-                const auto found = facets.find(key);
-                const bool grouped = found != facets.end() && !block.physical.empty();
+                const auto found = facets.take(facet);
                 mesh_.boundary_facets.push_back(facet);
-                mesh_.boundary_patch.push_back(grouped ? block.physical[found->second] : 0);
-                facet_tags_.push_back(found != facets.end() ? block.tag(found->second) : -1);
+                mesh_.boundary_patch.push_back(found ? facets.group(*found) : 0);
+                facet_tags_.push_back(found ? block.tag(*found) : -1);
             }
         }
+        facets.warn_of_repeated(listener_);
+        InnerFacets<D>{soup_, block_, mesh_}.tell(facets, options_, listener_);
         name_patches();
     }
 
     void name_patches() {
         std::map<PatchNumber, std::string> names;
-        PatchNumber largest = 0;
         for (const PatchNumber number : mesh_.boundary_patch) {
-            if (number > 0) {
-                names.emplace(number, fmt::format("{}", number)); // a group without a name goes by its number
-                largest = std::max(largest, number);
-            }
-        }
-        for (const Patch& group : soup_.groups[D - 1]) {
-            const auto found = names.find(group.number);
-            if (found != names.end() && !group.name.empty()) {
-                found->second = group.name;
+            if (number > 0 && !names.contains(number)) {
+                names.emplace(number, group_name(soup_.groups[D - 1], number));
+                require_patch_name(names.at(number), soup_.path);
             }
         }
         const auto without = std::count(mesh_.boundary_patch.begin(), mesh_.boundary_patch.end(), 0);
         if (without > 0) {
-            std::replace(mesh_.boundary_patch.begin(), mesh_.boundary_patch.end(), 0, largest + 1);
-            names.emplace(largest + 1, "boundary");
+            const PatchNumber number = number_of_rest(names);
+            std::replace(mesh_.boundary_patch.begin(), mesh_.boundary_patch.end(), 0, number);
+            names.emplace(number, rest_name);
             listener_.warning(
                 fmt::format("{}: {} of {} boundary facets are in no physical group; they become the patch "
-                            "\"boundary\"",
-                            soup_.path, without, mesh_.boundary_patch.size()));
+                            "\"{}\"",
+                            soup_.path, without, mesh_.boundary_patch.size(), rest_name));
         }
         for (const auto& [number, name] : names) {
             mesh_.patches.push_back({number, name});
         }
+    }
+
+    /// That of the group called so, else the one after the last.
+    static PatchNumber number_of_rest(const std::map<PatchNumber, std::string>& names) {
+        const auto called = std::find_if(names.begin(), names.end(),
+                                         [](const auto& each) { return each.second == rest_name; });
+        if (called != names.end()) {
+            return called->first;
+        }
+        PatchNumber number = names.empty() ? 1 : names.rbegin()->first;
+        while (names.contains(number)) {
+            number = number == std::numeric_limits<PatchNumber>::max() ? 1 : number + 1;
+        }
+        return number;
     }
 
     /// Facets by the file's numbers, if it lists them all.
@@ -207,9 +179,13 @@ private:
         return {soup_.path, all_listed ? facet_tags_ : std::vector<std::int64_t>{}};
     }
 
+    static constexpr const char* rest_name = "boundary";
+
     const io::Soup& soup_;
+    const DomainOptions& options_;
     const Listener& listener_;
-    const io::SimplexBlock& block_;
+    const io::SimplexBlock chosen_; ///< cells of the regions, where some are
+    const io::SimplexBlock& block_; ///< cells of the domain
     SpatialMesh<D> mesh_;
     std::vector<std::int64_t> facet_tags_; ///< -1: not in the file
 };
@@ -232,8 +208,8 @@ Surface<D> surface_of_soup(const io::Soup& soup, const Patch& patch) {
 }
 
 template<int D>
-SpatialMesh<D> domain_of_soup(const io::Soup& soup, const Listener& listener) {
-    return DomainBuilder<D>{soup, listener}.run();
+SpatialMesh<D> domain_of_soup(const io::Soup& soup, const DomainOptions& options, const Listener& listener) {
+    return DomainBuilder<D>{soup, options, listener}.run();
 }
 
 template<int D>
@@ -254,8 +230,8 @@ Point<D> point_in_space(const io::Soup& soup, std::size_t v) {
 
 template Surface<2> surface_of_soup<2>(const io::Soup&, const Patch&);
 template Surface<3> surface_of_soup<3>(const io::Soup&, const Patch&);
-template SpatialMesh<2> domain_of_soup<2>(const io::Soup&, const Listener&);
-template SpatialMesh<3> domain_of_soup<3>(const io::Soup&, const Listener&);
+template SpatialMesh<2> domain_of_soup<2>(const io::Soup&, const DomainOptions&, const Listener&);
+template SpatialMesh<3> domain_of_soup<3>(const io::Soup&, const DomainOptions&, const Listener&);
 template Point<2> point_in_space<2>(const io::Soup&, std::size_t);
 template Point<3> point_in_space<3>(const io::Soup&, std::size_t);
 

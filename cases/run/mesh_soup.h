@@ -18,11 +18,18 @@ Point<D> point_in_space(const io::Soup& soup, std::size_t v);
 template<int D>
 Surface<D> surface_of_soup(const io::Soup& soup, const Patch& patch);
 
-/// The D-simplices of a soup as the mesh of a domain, in the file's order: used points only, cells positive,
-/// patches from the physical groups of the boundary facets. Facets in no group become the patch "boundary",
-/// with a warning that counts them. Throws InputError naming cells and facets by the file's numbers:
-/// inverted, degenerate, overlapping cells, a boundary that is not one.
+struct DomainOptions {
+    std::vector<std::string> regions; ///< groups of cells that are the domain; empty: all cells
+    std::vector<std::string> moving;  ///< patches that a case has tables for
+};
+
+/// The D-simplices of a soup, or those of some regions, as the mesh of a domain, in the file's order: used
+/// points only, cells positive, patches from the physical groups of the boundary facets. Warnings: facets in
+/// no group, which become the patch "boundary"; facets in several groups, of which the first counts; groups
+/// on facets inside the domain, which are no boundary. Throws InputError naming cells and facets by the
+/// file's numbers: inverted, degenerate, overlapping cells, a boundary that is not one; UsageError for a
+/// region that there is not and for a moving patch that lies inside.
 template<int D>
-SpatialMesh<D> domain_of_soup(const io::Soup& soup, const Listener& listener);
+SpatialMesh<D> domain_of_soup(const io::Soup& soup, const DomainOptions& options, const Listener& listener);
 
 } // namespace slabhull
