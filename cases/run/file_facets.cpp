@@ -162,8 +162,8 @@ std::string InnerFacets<D>::way_out() const {
     const std::string known = regions_of(soup_, D);
     return known.empty()
                ? std::string{}
-               : fmt::format("; initial.regions = [..] makes some of {} the domain, and what parts them "
-                             "from the others boundary",
+               : fmt::format("; initial.regions = [..] takes only some of {} as the domain, and makes their "
+                             "interfaces with the others boundary",
                              known);
 }
 

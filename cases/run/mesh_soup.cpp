@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace slabhull {
 
@@ -156,6 +157,22 @@ private:
         }
         for (const auto& [number, name] : names) {
             mesh_.patches.push_back({number, name});
+        }
+        warn_of_empty_groups();
+    }
+
+    void warn_of_empty_groups() const {
+        const auto& physical = soup_.simplices[D - 1].physical;
+        const std::set<PatchNumber> used(physical.begin(), physical.end());
+        std::string empty;
+        for (const Patch& group : soup_.groups[D - 1]) {
+            if (!used.contains(group.number) && !group.name.empty()) {
+                empty += fmt::format("{}\"{}\"", empty.empty() ? "" : ", ", group.name);
+            }
+        }
+        if (!empty.empty()) {
+            listener_.warning(fmt::format("{}: groups that have a name, but no {}: {}", soup_.path,
+                                          D == 3 ? "triangles" : "lines", empty));
         }
     }
 
