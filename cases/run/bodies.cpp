@@ -96,8 +96,9 @@ private:
         }
         const std::size_t turned = turn_outward(surface, encloses_domain, naming);
         if (turned > 0) {
-            listener_.warning(fmt::format("{}: {} of {} facets disagreed with others and were turned",
-                                          naming.where, turned, surface.facets.size()));
+            listener_.warning(
+                fmt::format("{}: {} of {} facets pointed inward, unlike the others, and were turned",
+                            naming.where, turned, surface.facets.size()));
         }
         require_sound(surface, encloses_domain, naming);
         return surface;

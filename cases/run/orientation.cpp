@@ -104,8 +104,11 @@ private:
                 turned_[f] = !turned_[f];
             }
         }
-        return agrees ? 0
-                      : static_cast<std::size_t>(std::count_if(component.begin(), component.end(), turns));
+        // A body's own outside is the domain, so what was turned pointed out of the body.
+        const auto pointed_in = [&](Index f) { return turned_[f] == encloses_domain; };
+        return agrees
+                   ? 0
+                   : static_cast<std::size_t>(std::count_if(component.begin(), component.end(), pointed_in));
     }
 
     void turn(Index f) { std::swap(surface_.facets[f][0], surface_.facets[f][1]); }

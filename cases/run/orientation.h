@@ -9,8 +9,9 @@
 namespace slabhull {
 
 /// Turns the facets of a body, or of the outer boundary, so that in each connected component they agree with
-/// each other and their normals leave the domain. Returns how many of those that disagreed with others of
-/// their component it turned; a component that is inside out as a whole counts for none. Throws InputError
+/// each other and their normals leave the domain. Returns how many facets pointed into the body (the outer
+/// boundary) while others of their component pointed out of it; a component that is inside out as a whole
+/// counts for none. Throws InputError
 /// for what has one side only, such as a Moebius band or a Klein bottle, naming two facets. What is open or
 /// has facets in common ridges of three is left for require_domain_boundary(). Cost: that of the adjacency.
 template<int D>
