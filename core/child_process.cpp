@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -88,14 +90,18 @@ void wait_to_read(int descriptor) {
     } while (poll(&watched, 1, milliseconds) <= 0);
 }
 
+/// A terminal sends Ctrl-C to parent and child alike. Throws Interrupted where the parent is to stop, too.
+void hear_of_signal() {
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds{100}); // for the parent's handler, and to be asked again
+    go_on();
+}
+
 /// As exec() does it: the host's handlers must not run in the copy, and what nohup ignores stays ignored.
 void reset_signals() {
     for (int number = 1; number < NSIG; ++number) {
         struct sigaction action {};
-        // Ctrl-C is for the parent to answer, which then ends its child.
-        if (number == SIGINT || number == SIGTERM) {
-            std::signal(number, SIG_IGN);
-        } else if (sigaction(number, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) {
+        if (sigaction(number, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) {
             std::signal(number, SIG_DFL); // fails for a few that nobody can set
         }
     }
@@ -194,6 +200,9 @@ ChildEnd run_in_child(const std::function<void(const Send&)>& job,
         in.close_now();
         ChildEnd end = wait_for(id);
         end.received = received;
+        if (end.signal == SIGINT || end.signal == SIGTERM) {
+            hear_of_signal();
+        }
         return end;
     } catch (...) {
         kill(id, SIGKILL);

@@ -31,6 +31,7 @@ struct ConvertCommand {
     bool boundary = false;
     bool reverse = false;
     bool split = false;
+    io::ReadOptions reading;
     io::WriteOptions writing;
 };
 
@@ -190,7 +191,8 @@ int convert(const ConvertCommand& command) {
     const io::Format& to = format_to_write(command.out, command.to);
     io::require_supported(to, command.writing, "--");
     require_sense(command);
-    io::Soup soup = from.read(command.in);
+    io::Soup soup = from.read(command.in, command.reading);
+    print_remarks(soup);
     const std::vector<std::string> lost_numbers = io::lost_numbers(soup);
     settle_numbers(soup);
     edit(command, soup);
@@ -214,6 +216,8 @@ void add_convert(CLI::App& program, int& exit_code) {
     app->add_option("OUT", command->out, "The file to write; whole, or not at all")->required();
     app->add_option("--from", command->from, "Format of IN, whatever its extension");
     app->add_option("--to", command->to, "Format of OUT, whatever its extension");
+    app->add_flag("--linear", command->reading.linear,
+                  "Of curved (second-order) simplices in MSH, VTU and VTK, take the corners");
     app->add_flag("--split-output", command->split,
                   "A file for each region and patch: OUT with _initial, _terminating, _PATCH in its name");
     app->add_option("--encoding", command->writing.encoding,

@@ -199,6 +199,7 @@ void print_json(const InfoCommand& command, const io::Format& format, const Soup
 int info(const InfoCommand& command) {
     const io::Format& format = format_to_read(command.file, command.from);
     io::Soup soup = format.read(command.file);
+    print_remarks(soup);
     const std::vector<Arrays> arrays = arrays_of(soup);
     const SoupInfo seen = soup_info(std::move(soup));
     command.json ? print_json(command, format, seen, arrays) : print_text(command, format, seen, arrays);

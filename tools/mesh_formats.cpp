@@ -42,7 +42,15 @@ const io::Format& format_to_write(const std::string& file, const std::string& na
 }
 
 io::Soup read_named(const std::string& file, const std::string& name) {
-    return name.empty() ? io::read_mesh(file) : format_to_read(file, name).read(file);
+    io::Soup soup = name.empty() ? io::read_mesh(file) : format_to_read(file, name).read(file);
+    print_remarks(soup);
+    return soup;
+}
+
+void print_remarks(const io::Soup& soup) {
+    for (const std::string& remark : soup.remarks) {
+        fmt::print(stderr, "slabhull: {}\n", remark);
+    }
 }
 
 std::string formats_help() {

@@ -12,9 +12,12 @@ namespace slabhull::tools {
 const io::Format& format_to_read(const std::string& file, const std::string& name);
 const io::Format& format_to_write(const std::string& file, const std::string& name);
 
-/// Reads the file in the format that `name` says or, where it is empty, as io::read_mesh() does. Throws
-/// UsageError for a name that is none.
+/// Reads the file in the format that `name` says or, where it is empty, as io::read_mesh() does; prints the
+/// reader's remarks. Throws UsageError for a name that is none.
 io::Soup read_named(const std::string& file, const std::string& name);
+
+/// What the reader remarked, to stderr.
+void print_remarks(const io::Soup& soup);
 
 /// A line for each format, with its name and extensions; for --help.
 std::string formats_help();

@@ -6,6 +6,7 @@
 
 #include "cases/case/key_table.h"
 #include "cases/case/motion_keys.h"
+#include "cases/case/patch_names.h"
 
 #include <algorithm>
 #include <array>
@@ -78,7 +79,7 @@ private:
                 initial.fail(bodies,
                              "exactly one of \"mesh\", \"surfaces\" or \"curves\", and \"experiment\"");
             }
-            case_.initial = InitialMesh{directory_ / initial.text("mesh")};
+            case_.initial = read_mesh_keys(initial);
             return;
         }
         InitialBodies parts;
@@ -100,12 +101,36 @@ private:
         case_.initial = std::move(parts);
     }
 
+    InitialMesh read_mesh_keys(KeyTable& initial) {
+        InitialMesh mesh{directory_ / initial.text("mesh"), {}, {}};
+        mesh.reading.linear = initial.has("linear") && initial.boolean("linear");
+        mesh.reading.patch_array = initial.optional_text("patch_array").value_or("");
+        if (initial.has("regions")) {
+            mesh.regions = initial.texts("regions", -1);
+            if (mesh.regions.empty()) {
+                initial.fail("regions", "at least one group of the mesh");
+            }
+        }
+        return mesh;
+    }
+
     BodyFile read_body(KeyTable& table, const char* default_patch) {
         BodyFile body{directory_ / table.text("file"), {}};
-        body.patch = default_patch != nullptr ? table.optional_text("patch").value_or(default_patch)
-                                              : table.text("patch");
+        body.patches_of_file = table.has("patches") && table.choice<bool>("patches", {{"file", true}});
+        if (table.has("patch") || (default_patch == nullptr && !body.patches_of_file)) {
+            body.patch = patch_name(table, table.text("patch"));
+        } else if (default_patch != nullptr) {
+            body.patch = default_patch;
+        }
         table.require_all_known();
         return body;
+    }
+
+    static std::string patch_name(const KeyTable& table, const std::string& name) {
+        if (!is_patch_name(name)) {
+            table.fail("patch", patch_name_rule);
+        }
+        return name;
     }
 
     BoxSpec read_box(KeyTable table) {
@@ -113,7 +138,7 @@ private:
         box.min = table.numbers("min", case_.dimension);
         box.max = table.numbers("max", case_.dimension);
         box.size = table.positive("size");
-        box.patch = table.optional_text("patch").value_or(box.patch);
+        box.patch = patch_name(table, table.optional_text("patch").value_or(box.patch));
         for (std::size_t k = 0; k < box.min.size(); ++k) {
             if (!(box.min[k] < box.max[k])) {
                 table.fail("max", "each entry above that of \"min\"");

@@ -2,117 +2,29 @@
 #include "slabhull/cases/initial.h"
 #include "slabhull/cases/settings.h"
 
-#include "slabhull/core/error.h"
-#include "slabhull/geometry/embedding.h"
-#include "slabhull/geometry/shapes.h"
-#include "slabhull/io/files.h"
-#include "slabhull/topology/adjacency.h"
-
-#include "cases/case/numbers.h"
+#include "cases/run/bodies.h"
 #include "cases/run/mesh_soup.h"
-#include "slabhull/geometry/measures.h"
+#include "slabhull/geometry/embedding.h"
+#include "slabhull/io/files.h"
 
-#include <algorithm>
-#include <fmt/format.h>
+#include <utility>
 
 namespace slabhull {
 
 namespace {
 
-/// Gives every patch name a number, in the order in which they come.
-class PatchNumbers {
-public:
-    Patch operator()(const std::string& name) {
-        const PatchNumber known = patch_number(patches_, name);
-        if (known != 0) {
-            return {known, name};
-        }
-        patches_.push_back({static_cast<PatchNumber>(patches_.size() + 1), name});
-        return patches_.back();
+std::vector<std::string> patches_with_motions(const Case& the_case) {
+    std::vector<std::string> names;
+    for (const auto& [patch, motion] : the_case.motions) {
+        names.push_back(patch);
     }
-
-private:
-    PatchList patches_;
-};
-
-/// Turns each connected component of a body, or of the outer boundary, so that its normals leave the domain.
-/// Components that are not consistently oriented are left as they are, for the check that follows.
-template<int D>
-void turn_outward(Surface<D>& surface, bool encloses_domain) {
-    const auto adjacency = build_adjacency<D - 1>(surface.facets, surface.points.size());
-    std::vector<std::vector<Index>> components;
-    std::vector<bool> reached(surface.facets.size(), false);
-    for (Index start = 0; start < surface.facets.size(); ++start) {
-        if (reached[start]) {
-            continue;
-        }
-        std::vector<Index>& component = components.emplace_back(1, start);
-        reached[start] = true;
-        for (std::size_t next = 0; next < component.size(); ++next) {
-            for (const Index across : adjacency.neighbors[component[next]]) {
-                if (across != no_index && !reached[across]) {
-                    reached[across] = true;
-                    component.push_back(across);
-                }
-            }
-        }
-    }
-    for (const std::vector<Index>& component : components) {
-        if ((enclosed_by<D>(surface, component) > 0) != encloses_domain) {
-            for (const Index f : component) {
-                std::swap(surface.facets[f][0], surface.facets[f][1]);
-            }
-        }
-    }
-}
-
-template<int D>
-Surface<D> read_body(const BodyFile& body, bool encloses_domain, const Patch& patch) {
-    const io::Soup soup = D == 3 ? io::read_surface(body.file) : io::read_curve(body.file);
-    Surface<D> surface = surface_of_soup<D>(soup, patch);
-    turn_outward(surface, encloses_domain);
-    FacetNaming naming{body.file.string(), {}};
-    const io::SimplexBlock& block = soup.simplices[D - 1];
-    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-        naming.numbers.push_back(block.tag(f));
-    }
-    if (!encloses_domain) { // on its own, a body is the boundary of the domain inside it
-        Surface<D> alone = surface;
-        for (auto& facet : alone.facets) {
-            std::swap(facet[0], facet[1]);
-        }
-        require_domain_boundary(alone, naming, true);
-    } else {
-        require_domain_boundary(surface, naming, true);
-    }
-    return surface;
-}
-
-template<int D>
-Surface<D> boundary_of_bodies(const InitialBodies& bodies) {
-    PatchNumbers number;
-    std::vector<Surface<D>> pieces;
-    for (const BodyFile& body : bodies.files) {
-        pieces.push_back(read_body<D>(body, false, number(body.patch)));
-    }
-    for (const EllipsoidBody& body : bodies.ellipsoids) {
-        pieces.push_back(ellipsoid_body<D>(as_point<D>(body.centre), as_point<D>(body.semi_axes),
-                                           body.frequency, number(body.patch)));
-    }
-    if (const auto* box = std::get_if<BoxSpec>(&bodies.outer)) {
-        pieces.push_back(
-            box_surface<D>(as_point<D>(box->min), as_point<D>(box->max), box->size, number(box->patch)));
-    } else {
-        const auto& outer = std::get<BodyFile>(bodies.outer);
-        pieces.push_back(read_body<D>(outer, true, number(outer.patch)));
-    }
-    return join<D>(pieces);
+    return names;
 }
 
 template<int D>
 Domain<D> mesh_bodies(const InitialBodies& bodies, const CapOptions& options, const IdCounter& ids,
-                      StageClock& clock) {
-    Surface<D> surface = boundary_of_bodies<D>(bodies);
+                      const Listener& listener, StageClock& clock) {
+    Surface<D> surface = boundary_of_bodies<D>(bodies, listener);
     clock.book("initial boundary");
     require_domain_boundary(surface, {"initial boundary", {}}, true);
     clock.book("boundary check");
@@ -127,13 +39,18 @@ template<int D>
 Domain<D> initial_domain(const Case& the_case, const IdCounter& ids, const Listener& listener,
                          StageClock& clock) {
     if (const auto* file = std::get_if<InitialMesh>(&the_case.initial)) {
-        const io::Soup soup = io::read_mesh(file->file);
+        const io::Soup soup = io::read_mesh(file->file, file->reading);
         clock.book("reading");
-        Domain<D> domain = domain_of_soup<D>(soup, ids, listener);
+        for (const std::string& remark : soup.remarks) {
+            listener.warning(remark);
+        }
+        Domain<D> domain =
+            domain_of_soup<D>(soup, {file->regions, patches_with_motions(the_case)}, ids, listener);
         clock.book("initial boundary");
         return domain;
     }
-    return mesh_bodies<D>(std::get<InitialBodies>(the_case.initial), cap_options(the_case), ids, clock);
+    return mesh_bodies<D>(std::get<InitialBodies>(the_case.initial), cap_options(the_case), ids, listener,
+                          clock);
 }
 
 template<int D>

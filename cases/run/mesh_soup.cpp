@@ -1,44 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/mesh_soup.h"
 
+#include "cases/case/patch_names.h"
+#include "cases/run/file_facets.h"
+#include "cases/run/used_points.h"
+
 #include "slabhull/core/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace slabhull {
 
 namespace {
-
-/// The points that some simplices use, in their order, and the way from the soup's numbers to theirs.
-template<int D>
-struct UsedPoints {
-    Array<Point<D>> points;
-    std::vector<Index> number; ///< of each soup point; no_index when unused
-
-    UsedPoints(const io::Soup& soup, std::span<const Index> vertices) : number(soup.points.size(), no_index) {
-        for (const Index v : vertices) {
-            number[v] = 0;
-        }
-        for (std::size_t v = 0; v < number.size(); ++v) {
-            if (number[v] == 0) {
-                number[v] = static_cast<Index>(points.size());
-                points.push_back(point_in_space<D>(soup, v));
-            }
-        }
-    }
-};
-
-template<int K>
-Array<Simplex<K>> renumbered(const io::SimplexBlock& block, const std::vector<Index>& number) {
-    Array<Simplex<K>> simplices(block.size(K));
-    for (std::size_t i = 0; i < simplices.size(); ++i) {
-        for (std::size_t k = 0; k <= K; ++k) {
-            simplices[i][k] = number[block.vertices[i * (K + 1) + k]];
-        }
-    }
-    return simplices;
-}
 
 /// The facets of a soup whose points all belong to cells, with their groups as patches.
 template<int D>
@@ -53,6 +28,40 @@ void take_facets(const io::Soup& soup, const std::vector<Index>& number, DomainI
         }
     }
     input.patches = soup.groups[D - 1];
+}
+
+/// What a file says of facets and the domain cannot hold.
+template<int D>
+void warn_of_facets(const io::Soup& soup, const io::SimplexBlock& cells, const std::vector<Index>& number,
+                    const Domain<D>& domain, const DomainOptions& options, const Listener& listener) {
+    FileFacets<D> facets{soup, number};
+    for (const Facet<D>& facet : domain.mesh.boundary_facets) {
+        facets.take(facet);
+    }
+    facets.warn_of_repeated(listener);
+    InnerFacets<D>{soup, cells, domain.mesh}.tell(facets, options, listener);
+    if (domain.facets_without_patch > 0) {
+        listener.warning(
+            fmt::format("{}: {} of {} boundary facets are in no physical group; they become the patch "
+                        "\"boundary\"",
+                        soup.path, domain.facets_without_patch, domain.mesh.boundary_patch.size()));
+    }
+}
+
+template<int D>
+void warn_of_empty_groups(const io::Soup& soup, const Listener& listener) {
+    const auto& physical = soup.simplices[D - 1].physical;
+    const std::set<PatchNumber> used(physical.begin(), physical.end());
+    std::string empty;
+    for (const Patch& group : soup.groups[D - 1]) {
+        if (!used.contains(group.number) && !group.name.empty()) {
+            empty += fmt::format("{}\"{}\"", empty.empty() ? "" : ", ", group.name);
+        }
+    }
+    if (!empty.empty()) {
+        listener.warning(fmt::format("{}: groups that have a name, but no {}: {}", soup.path,
+                                     D == 3 ? "triangles" : "lines", empty));
+    }
 }
 
 } // namespace
@@ -73,8 +82,11 @@ Surface<D> surface_of_soup(const io::Soup& soup, const Patch& patch) {
 }
 
 template<int D>
-Domain<D> domain_of_soup(const io::Soup& soup, const IdCounter& ids, const Listener& listener) {
-    const io::SimplexBlock& block = soup.simplices[D];
+Domain<D> domain_of_soup(const io::Soup& soup, const DomainOptions& options, const IdCounter& ids,
+                         const Listener& listener) {
+    const io::SimplexBlock chosen =
+        options.regions.empty() ? io::SimplexBlock{} : cells_of_regions<D>(soup, options.regions);
+    const io::SimplexBlock& block = options.regions.empty() ? soup.simplices[D] : chosen;
     UsedPoints<D> used{soup, block.vertices};
     DomainInput<D> input;
     input.where = soup.path;
@@ -86,12 +98,11 @@ Domain<D> domain_of_soup(const io::Soup& soup, const IdCounter& ids, const Liste
     }
     take_facets(soup, used.number, input);
     Domain<D> domain = make_domain<D>(std::move(input), ids);
-    if (domain.facets_without_patch > 0) {
-        listener.warning(
-            fmt::format("{}: {} of {} boundary facets are in no physical group; they become the patch "
-                        "\"boundary\"",
-                        soup.path, domain.facets_without_patch, domain.mesh.boundary_patch.size()));
+    for (const Patch& patch : domain.mesh.patches) {
+        require_patch_name(patch.name, soup.path);
     }
+    warn_of_facets(soup, block, used.number, domain, options, listener);
+    warn_of_empty_groups<D>(soup, listener);
     return domain;
 }
 
@@ -113,8 +124,10 @@ Point<D> point_in_space(const io::Soup& soup, std::size_t v) {
 
 template Surface<2> surface_of_soup<2>(const io::Soup&, const Patch&);
 template Surface<3> surface_of_soup<3>(const io::Soup&, const Patch&);
-template Domain<2> domain_of_soup<2>(const io::Soup&, const IdCounter&, const Listener&);
-template Domain<3> domain_of_soup<3>(const io::Soup&, const IdCounter&, const Listener&);
+template Domain<2> domain_of_soup<2>(const io::Soup&, const DomainOptions&, const IdCounter&,
+                                     const Listener&);
+template Domain<3> domain_of_soup<3>(const io::Soup&, const DomainOptions&, const IdCounter&,
+                                     const Listener&);
 template Point<2> point_in_space<2>(const io::Soup&, std::size_t);
 template Point<3> point_in_space<3>(const io::Soup&, std::size_t);
 

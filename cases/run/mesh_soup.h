@@ -19,10 +19,18 @@ Point<D> point_in_space(const io::Soup& soup, std::size_t v);
 template<int D>
 Surface<D> surface_of_soup(const io::Soup& soup, const Patch& patch);
 
-/// The D-simplices of a soup as a domain, see make_domain(): in the file's order, used points only, patches
-/// from the physical groups of the boundary facets. Warns of boundary facets in no group. Errors name cells
-/// and facets by the file's numbers.
+struct DomainOptions {
+    std::vector<std::string> regions; ///< groups of cells that are the domain; empty: all cells
+    std::vector<std::string> moving;  ///< patches that a case has tables for
+};
+
+/// The D-simplices of a soup, or those of some regions, as a domain, see make_domain(): in the file's order,
+/// used points only, patches from the physical groups of the boundary facets. Warnings: facets in no group,
+/// which become the patch "boundary"; facets in several groups, of which the first counts; groups on facets
+/// inside the domain, which are no boundary. Errors name cells and facets by the file's numbers. Throws
+/// UsageError, too, for an unknown region and for a moving patch that lies inside.
 template<int D>
-Domain<D> domain_of_soup(const io::Soup& soup, const IdCounter& ids, const Listener& listener);
+Domain<D> domain_of_soup(const io::Soup& soup, const DomainOptions& options, const IdCounter& ids,
+                         const Listener& listener);
 
 } // namespace slabhull

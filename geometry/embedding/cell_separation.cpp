@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/embedding/cell_separation.h"
 
+#include "geometry/embedding/rounding.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,7 +15,6 @@ namespace slabhull {
 
 namespace {
 
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 /// More than any operation here loses when its result is too small for a normalised number.
 constexpr double underflow = std::numeric_limits<double>::min();
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/embedding/group_stars.h"
 
+#include "geometry/embedding/rounding.h"
+
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/vector.h"
 #include "slabhull/geometry/measures.h"
@@ -13,8 +15,6 @@
 namespace slabhull {
 
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 double determinant(const Point<2>& o, const Point<2>& a, const Point<2>& b) {
     return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/meshing/cap_blocks.h"
+#include "geometry/meshing/cap_limits.h"
 #include "geometry/meshing/solid_mesher.h"
 
 #include "slabhull/core/error.h"
@@ -53,6 +54,10 @@ template<>
 CapMesh<3> mesh_cap<3>(const Boundary<3>& boundary, const Surface<3>& surface, const CapOptions& options) {
     require_sane(options);
     require_fits(surface);
+    require_attainable<3>(surface, options.grading.largest);
+    if (options.mesher == SolidMesher::tetgen) {
+        require_resolvable(surface);
+    }
     const SizeField<3> size{surface.points, boundary_spacing<3>(surface.points, surface.facets),
                             options.grading};
     CapMesh<3> mesh = mesh_in_blocks(boundary, surface, size, options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/meshing/cap_blocks.h"
 
+#include "geometry/meshing/cap_limits.h"
 #include "geometry/meshing/domain_blocks.h"
 #include "geometry/meshing/sliver_repair.h"
 #include "geometry/meshing/solid_mesher.h"
@@ -22,8 +23,6 @@ namespace slabhull {
 
 namespace {
 
-/// Cells for each cube of the wanted spacing.
-constexpr double cells_per_cube = 7.2;
 /// Bytes for each cell: in the mesher's process, and here while the blocks come in.
 constexpr double tetgen_bytes = 220;
 constexpr double hxt_bytes = 280;
@@ -167,11 +166,11 @@ CapMesh<3> mesh_in_blocks(const Boundary<3>& boundary, const Surface<3>& surface
     }
     const double memory = usable_memory * static_cast<double>(available_memory());
     if (options.blocks == 0 &&
-        bytes_for(options.mesher, cells_per_cube * size.cube_count(), 1, 1) <= memory) {
+        bytes_for(options.mesher, cells_per_cube<3> * size.cube_count(), 1, 1) <= memory) {
         return fill(boundary, surface, size, options); // even if the domain were the box around it
     }
     std::vector<LoadSample> load = sample_load(surface, size);
-    const double cells = cells_per_cube * cubes_in(load);
+    const double cells = cells_per_cube<3> * cubes_in(load);
     const int count = options.blocks > 0 ? options.blocks : blocks_that_fit(options.mesher, cells, memory);
     if (count == 1) {
         return fill(boundary, surface, size, options);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/meshing/cap_limits.h"
 #include "geometry/meshing/cap_spacing.h"
 #include "geometry/meshing/constrained_delaunay.h"
 #include "geometry/meshing/delaunay_refinement.h"
@@ -32,6 +33,7 @@ void require_countable(const SizeField<2>& field) {
 
 template<>
 CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
+    require_attainable<2>(surface, options.grading.largest);
     CapMesh<2> mesh = constrained_delaunay(surface);
     const std::span<const Point<2>> points{surface.points};
     const SizeField<2> field{points, boundary_spacing<2>(points, surface.facets), options.grading};

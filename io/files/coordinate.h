@@ -9,13 +9,20 @@
 
 namespace slabhull::io {
 
-/// Throws unless x is finite and, because OpenMesh reads it so, within the range of single precision.
+/// Finite, and within the range of single precision, so that products of three coordinates stay finite.
+inline bool is_coordinate(double x) {
+    return std::abs(x) <= static_cast<double>(std::numeric_limits<float>::max());
+}
+
+inline std::string why_no_coordinate(double x, const std::string& whose) {
+    return std::isfinite(x) ? fmt::format("{} has the coordinate {}, which is too large", whose, x)
+                            : whose + " has a coordinate that is not a finite number";
+}
+
+/// Fails for what is no coordinate.
 inline void require_coordinate(const FileCursor& in, double x, const std::string& whose) {
-    if (!std::isfinite(x)) {
-        in.fail(whose + " has a coordinate that is not a finite number");
-    }
-    if (std::abs(x) > static_cast<double>(std::numeric_limits<float>::max())) {
-        in.fail(fmt::format("{} has the coordinate {}, which is too large", whose, x));
+    if (!is_coordinate(x)) {
+        in.fail(why_no_coordinate(x, whose));
     }
 }
 

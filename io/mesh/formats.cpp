@@ -3,6 +3,7 @@
 
 #include "io/files/file_cursor.h"
 #include "io/mesh/left_out.h"
+#include "io/mesh/readers.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -151,7 +152,7 @@ FormatTable make_table() {
          .title = "MSH",
          .extensions = {".msh"},
          .signatures = {"$MeshFormat", "$Comments"},
-         .read = read_msh,
+         .read = {read_msh, read_msh},
          .write = write_msh_as,
          .features = msh_features,
          .variants = msh_variants},
@@ -159,7 +160,7 @@ FormatTable make_table() {
          .title = "VTU",
          .extensions = {".vtu"},
          .signatures = {"<VTKFile"},
-         .read = read_vtu,
+         .read = {read_vtu, read_vtu},
          .write = write_vtu_as,
          .features = vtu_features,
          .variants = vtu_variants},
@@ -175,7 +176,7 @@ FormatTable make_table() {
          .title = "legacy VTK",
          .extensions = {".vtk"},
          .signatures = {"# vtk DataFile"},
-         .read = read_vtk,
+         .read = {read_vtk, read_vtk},
          .write = write_plain<write_vtk>,
          .features = vtu_features,
          .built = SLABHULL_FORMAT_VTK},
@@ -183,7 +184,7 @@ FormatTable make_table() {
          .title = "XDMF",
          .extensions = {".xdmf", ".xmf"},
          .signatures = {},
-         .read = read_xdmf,
+         .read = {read_xdmf, read_xdmf},
          .write = write_xdmf_as,
          .features = vtu_features,
          .built = SLABHULL_FORMAT_XDMF},
@@ -349,6 +350,10 @@ void require_supported(const Format& format, const WriteOptions& options, const 
 }
 
 Soup read_mesh(const std::filesystem::path& path) {
+    return read_mesh(path, ReadOptions{});
+}
+
+Soup read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
     const Format* format = format_of_extension(path);
     if (format == nullptr) {
         format = format_of_content(path);
@@ -357,7 +362,7 @@ Soup read_mesh(const std::filesystem::path& path) {
         throw InputError(fmt::format(
             "{}: neither the name nor the content is that of a mesh file that is read", path.string()));
     }
-    return format->read(path);
+    return format->read(path, options);
 }
 
 VtuEncoding vtu_encoding(const WriteOptions& options) {

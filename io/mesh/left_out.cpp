@@ -3,6 +3,8 @@
 // calls one links in every build.
 #include "io/mesh/left_out.h"
 
+#include "io/mesh/readers.h"
+
 #include "slabhull/io/files.h"
 
 #include <fmt/format.h>
@@ -21,6 +23,9 @@ void refuse_left_out(std::string_view title, std::string_view name) {
 Soup read_vtk(const Path&) {
     refuse_left_out("legacy VTK", "vtk");
 }
+Soup read_vtk(const Path&, const ReadOptions&) {
+    refuse_left_out("legacy VTK", "vtk");
+}
 void write_vtk(AtomicFile&, const MeshColumns&) {
     refuse_left_out("legacy VTK", "vtk");
 }
@@ -31,6 +36,9 @@ bool has_hdf5() {
     return false;
 }
 Soup read_xdmf(const Path&) {
+    refuse_left_out("XDMF", "xdmf");
+}
+Soup read_xdmf(const Path&, const ReadOptions&) {
     refuse_left_out("XDMF", "xdmf");
 }
 void write_xdmf(AtomicFiles&, const Path&, const MeshColumns&) {

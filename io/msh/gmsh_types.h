@@ -5,19 +5,44 @@
 
 namespace slabhull::io {
 
-/// Dimension of the simplex that has Gmsh's element type number, -1 for any other element.
-constexpr int gmsh_simplex_dimension(int type) {
+/// What a simplex has: corners, one more than its dimension, come first among its nodes.
+struct GmshSimplex {
+    int dimension = -1; ///< -1: no simplex
+    int nodes = 0;
+
+    bool is_curved() const { return nodes > dimension + 1; }
+};
+
+constexpr GmshSimplex gmsh_simplex(int type) {
     switch (type) {
     case 15:
-        return 0;
+        return {0, 1};
     case 1:
-        return 1;
+        return {1, 2};
     case 2:
-        return 2;
+        return {2, 3};
     case 4:
-        return 3;
+        return {3, 4};
+    case 8: // second order
+        return {1, 3};
+    case 9:
+        return {2, 6};
+    case 11:
+        return {3, 10};
+    case 26: // third
+        return {1, 4};
+    case 21:
+        return {2, 10};
+    case 29:
+        return {3, 20};
+    case 27: // fourth
+        return {1, 5};
+    case 23:
+        return {2, 15};
+    case 30:
+        return {3, 35};
     default:
-        return -1;
+        return {};
     }
 }
 
@@ -55,6 +80,12 @@ inline std::string gmsh_type_name(int type) {
     case 14:
     case 19:
         return "second-order pyramid";
+    case 26:
+        return "third-order line";
+    case 21:
+        return "third-order triangle";
+    case 29:
+        return "third-order tetrahedron";
     default:
         return "element of Gmsh's type " + std::to_string(type);
     }

@@ -3,6 +3,8 @@
 #include "slabhull/io/files.h"
 
 #include "io/files/file_cursor.h"
+#include "io/mesh/corners_only.h"
+#include "io/mesh/readers.h"
 #include "io/mesh/tag_index.h"
 #include "io/msh/gmsh_types.h"
 #include "slabhull/core/parallel.h"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <memory>
 
@@ -21,7 +24,9 @@ constexpr std::size_t least_text = 2; // a digit and a blank
 
 class MshReader {
 public:
-    explicit MshReader(FileBytes& file) : file_{file}, in_{file} { soup_.path = file.path().string(); }
+    MshReader(FileBytes& file, const ReadOptions& options) : file_{file}, in_{file}, options_{options} {
+        soup_.path = file.path().string();
+    }
 
     Soup read() {
         while (!in_.at_end()) {
@@ -31,6 +36,8 @@ public:
         require(nodes_read_, "there is no section $Nodes");
         require(elements_read_, "there is no section $Elements");
         list_groups();
+        remark_on_groups();
+        corners_only_.finish(soup_);
         return std::move(soup_);
     }
 
@@ -176,7 +183,11 @@ private:
         }
         std::array<double, 6> box{};
         in_.numbers(box.data(), dimension == 0 ? 3 : 6, "an entity's box");
-        physical_of_[dimension][tag] = first_positive(read_tags("physical groups"));
+        const std::vector<std::int32_t> groups = read_tags("physical groups");
+        physical_of_[dimension][tag] = first_positive(groups);
+        if (groups.size() > 1) {
+            groups_of_[dimension][tag] = groups;
+        }
         if (dimension > 0) {
             read_tags("bounding entities");
         }
@@ -305,14 +316,17 @@ private:
         elements_read_ = true;
     }
 
-    std::size_t simplex_dimension(int type, std::int64_t tag) const {
-        const int dimension = gmsh_simplex_dimension(type);
-        if (dimension < 0) {
+    GmshSimplex simplex(int type, std::int64_t tag) const {
+        const GmshSimplex simplex = gmsh_simplex(type);
+        if (simplex.dimension < 0) {
             in_.fail(fmt::format(
                 "element {} is a {}; only points and straight lines, triangles and tetrahedra are read", tag,
                 gmsh_type_name(type)));
         }
-        return static_cast<std::size_t>(dimension);
+        if (simplex.is_curved() && !options_.linear) {
+            in_.fail(fmt::format("element {} is a {}; {}", tag, gmsh_type_name(type), how_to_take_corners));
+        }
+        return simplex;
     }
 
     std::uint64_t read_element_blocks() {
@@ -334,21 +348,22 @@ private:
         if (claimed == 0) {
             return;
         }
-        if (gmsh_simplex_dimension(type) < 0) { // the tag for the message is all we want
-            simplex_dimension(type, static_cast<std::int64_t>(size_value("an element's number")));
+        if (is_refused(type)) { // the tag for the message is all we want
+            simplex(type, static_cast<std::int64_t>(size_value("an element's number")));
         }
-        const auto dimension = simplex_dimension(type, 0);
+        const GmshSimplex kind = simplex(type, 0);
+        const auto dimension = static_cast<std::size_t>(kind.dimension);
         require(entity_dimension == static_cast<std::int32_t>(dimension),
                 fmt::format("elements of dimension {} on an entity of dimension {}", dimension,
                             entity_dimension));
-        const std::size_t row = dimension + 2;
+        const std::size_t row = static_cast<std::size_t>(kind.nodes) + 1;
         const std::size_t count =
             counted(claimed, row * static_cast<std::size_t>(size_width_), row, "elements");
         const auto parent = parent_of_[dimension].find(entity);
         const bool is_part = parent != parent_of_[dimension].end();
         if (is_part && parent->second.dimension != entity_dimension) {
             SimplexBlock interface; // between partitions, no part of the model
-            read_rows(interface, dimension, count);
+            read_rows(interface, kind, count);
             return;
         }
         const PatchNumber physical = physical_of(dimension, entity);
@@ -356,7 +371,12 @@ private:
         reserve_elements(block, dimension);
         block.physical.resize(block.physical.size() + count, physical);
         block.entity.resize(block.entity.size() + count, is_part ? parent->second.number : entity);
-        read_rows(block, dimension, count);
+        read_rows(block, kind, count);
+    }
+
+    bool is_refused(int type) const {
+        const GmshSimplex simplex = gmsh_simplex(type);
+        return simplex.dimension < 0 || (simplex.is_curved() && !options_.linear);
     }
 
     /// Addresses for all elements that may follow, so that the arrays never move: memory is taken only by
@@ -376,41 +396,46 @@ private:
     }
 
     /// Rows of an element's number and its nodes'.
-    void read_rows(SimplexBlock& block, std::size_t dimension, std::size_t count) {
-        const std::size_t corners = dimension + 1;
+    void read_rows(SimplexBlock& block, const GmshSimplex& kind, std::size_t count) {
+        const auto corners = static_cast<std::size_t>(kind.dimension) + 1;
+        const auto nodes = static_cast<std::size_t>(kind.nodes);
         const std::size_t next = block.tags.size();
         checked_index(next + count, "elements");
         block.tags.resize(next + count);
         block.vertices.resize((next + count) * corners);
-        const Rows rows{in_.offset(), corners, block.tags.data() + next,
+        const Rows rows{in_.offset(), corners, nodes, block.tags.data() + next,
                         block.vertices.data() + next * corners};
-        if (in_.binary() && size_width_ == 8) {
+        if (in_.binary() && size_width_ == 8 && !kind.is_curved()) {
             parallel_for(count, 16 * rows_at_once,
                          [&](std::size_t begin, std::size_t end) { copy_rows(rows, begin, end); });
             in_.seek(in_.offset() + count * (corners + 1) * sizeof(std::int64_t));
         } else {
             parse_rows(rows, count);
         }
+        corners_only_.add_cells(kind.is_curved() ? count : 0);
         element_count_ += count;
     }
 
-    static constexpr std::size_t rows_at_once = 512;
+    static constexpr std::size_t rows_at_once = 512;              // of straight simplices
     using RowValues = std::array<std::int64_t, rows_at_once * 5>; // up to 1 + 4 in a row
 
     /// Where elements stand in the file, and where they go.
     struct Rows {
         std::size_t byte;
         std::size_t corners;
+        std::size_t nodes; ///< corners and more
         std::int64_t* tags;
         Index* vertices;
     };
 
     void parse_rows(const Rows& all, std::size_t count) {
         RowValues values;
-        for (std::size_t done = 0; done < count; done += rows_at_once) {
-            const std::size_t rows = std::min(rows_at_once, count - done);
-            size_values(values.data(), rows * (all.corners + 1), "elements");
+        const std::size_t at_once = values.size() / (all.nodes + 1);
+        for (std::size_t done = 0; done < count; done += at_once) {
+            const std::size_t rows = std::min(at_once, count - done);
+            size_values(values.data(), rows * (all.nodes + 1), "elements");
             take_rows(all, done, rows, values, in_.offset());
+            take_nodes_between(all, rows, values);
         }
     }
 
@@ -441,6 +466,16 @@ private:
             all.tags[i] = tag;
             for (std::size_t k = 0; k < all.corners; ++k) {
                 *vertex++ = node(*value++, tag, byte);
+            }
+            value += all.nodes - all.corners;
+        }
+    }
+
+    void take_nodes_between(const Rows& all, std::size_t count, const RowValues& values) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::int64_t* row = values.data() + i * (all.nodes + 1);
+            for (std::size_t k = all.corners; k < all.nodes; ++k) {
+                corners_only_.add_between(node(row[1 + k], row[0]), soup_.points.size());
             }
         }
     }
@@ -473,8 +508,8 @@ private:
         elements_claimed_ = claimed;
         for (std::size_t i = 0; i < count; ++i) {
             const auto tag = in_.parsed<std::int32_t>("an element's number");
-            const auto dimension = simplex_dimension(in_.parsed<int>("an element type"), tag);
-            read_legacy_element(tag, dimension, in_.parsed<std::uint32_t>("a count of tags"));
+            const GmshSimplex kind = simplex(in_.parsed<int>("an element type"), tag);
+            read_legacy_element(tag, kind, in_.parsed<std::uint32_t>("a count of tags"));
         }
         return claimed;
     }
@@ -488,20 +523,21 @@ private:
             std::array<std::int32_t, 3> head{}; // type, elements, tags of each
             in_.numbers(head.data(), head.size(), "a head of elements");
             require(head[1] > 0 && head[2] >= 0, "a count of elements was expected");
-            if (gmsh_simplex_dimension(head[0]) < 0) {
-                simplex_dimension(head[0], in_.raw<std::int32_t>("an element's number"));
+            if (is_refused(head[0])) {
+                simplex(head[0], in_.raw<std::int32_t>("an element's number"));
             }
-            const std::size_t dimension = simplex_dimension(head[0], 0);
+            const GmshSimplex kind = simplex(head[0], 0);
             for (std::int32_t i = 0; i < head[1]; ++i) {
                 const auto tag = in_.raw<std::int32_t>("an element's number");
-                read_legacy_element(tag, dimension, static_cast<std::uint32_t>(head[2]));
+                read_legacy_element(tag, kind, static_cast<std::uint32_t>(head[2]));
             }
         }
         return claimed;
     }
 
     /// What MSH 2 says of an element after its number and type. The first tags are physical group and entity.
-    void read_legacy_element(std::int64_t tag, std::size_t dimension, std::uint32_t tag_count) {
+    void read_legacy_element(std::int64_t tag, const GmshSimplex& kind, std::uint32_t tag_count) {
+        const auto dimension = static_cast<std::size_t>(kind.dimension);
         std::array<std::int32_t, 2> tags{};
         for (std::uint32_t i = 0; i < tag_count; ++i) {
             const auto value = in_.number<std::int32_t>("an element's tag");
@@ -514,6 +550,11 @@ private:
         for (std::size_t k = 0; k <= dimension; ++k) {
             block.vertices.push_back(node(in_.number<std::int32_t>("a node's number"), tag));
         }
+        for (int k = kind.dimension + 1; k < kind.nodes; ++k) {
+            corners_only_.add_between(node(in_.number<std::int32_t>("a node's number"), tag),
+                                      soup_.points.size());
+        }
+        corners_only_.add_cells(kind.is_curved() ? 1 : 0);
         const PatchNumber physical = positive(tags[0]);
         block.tags.push_back(tag);
         block.physical.push_back(physical);
@@ -628,6 +669,34 @@ private:
         }
     }
 
+    /// Elements of an entity in several groups are in the first of them; that the others stay empty is said.
+    void remark_on_groups() {
+        constexpr std::array<const char*, 4> kinds{"points", "lines", "triangles", "tetrahedra"};
+        std::map<std::pair<std::size_t, std::vector<std::int32_t>>, std::size_t> counts;
+        for (std::size_t d = 0; d < 4; ++d) {
+            for (std::size_t i = 0; !groups_of_[d].empty() && i < soup_.simplices[d].entity.size(); ++i) {
+                const std::int32_t entity = soup_.simplices[d].entity[i];
+                const auto groups = groups_of_[d].find(entity);
+                if (groups != groups_of_[d].end()) {
+                    ++counts[{d, groups->second}];
+                }
+            }
+        }
+        for (const auto& [where, count] : counts) {
+            const auto& [d, groups] = where;
+            std::vector<std::string> names;
+            for (const std::int32_t group : groups) {
+                const std::string& name = names_[d][positive(group)];
+                names.push_back(name.empty() ? fmt::format("{}", positive(group)) : name);
+            }
+            const PatchNumber first = first_positive(groups);
+            soup_.remarks.push_back(
+                fmt::format("{}: {} {} are in several physical groups, \"{}\"; they count in \"{}\" only",
+                            soup_.path, count, kinds[d], fmt::join(names, "\", \""),
+                            names_[d][first].empty() ? fmt::format("{}", first) : names_[d][first]));
+        }
+    }
+
     struct Parent {
         std::int32_t dimension;
         std::int32_t number;
@@ -635,6 +704,8 @@ private:
 
     const FileBytes& file_;
     FileCursor in_;
+    const ReadOptions& options_;
+    CornersOnly corners_only_;
     Soup soup_;
     Version version_ = Version::unknown;
     int size_width_ = 8; ///< bytes of a size_t of MSH 4.1
@@ -645,15 +716,20 @@ private:
     TagIndex nodes_;
     std::unique_ptr<TagIndex> element_of_; ///< of the top dimension, made when data ask for it
     std::array<std::map<PatchNumber, std::string>, 4> names_;
-    std::array<std::map<std::int32_t, PatchNumber>, 4> physical_of_; ///< an entity's group
-    std::array<std::map<std::int32_t, Parent>, 4> parent_of_;        ///< the model's entity of a part
+    std::array<std::map<std::int32_t, PatchNumber>, 4> physical_of_;             ///< an entity's group
+    std::array<std::map<std::int32_t, std::vector<std::int32_t>>, 4> groups_of_; ///< of entities in several
+    std::array<std::map<std::int32_t, Parent>, 4> parent_of_; ///< the model's entity of a part
 };
 
 } // namespace
 
 Soup read_msh(const std::filesystem::path& path) {
+    return read_msh(path, ReadOptions{});
+}
+
+Soup read_msh(const std::filesystem::path& path, const ReadOptions& options) {
     FileBytes file{path};
-    return MshReader{file}.read();
+    return MshReader{file, options}.read();
 }
 
 } // namespace slabhull::io

@@ -3,9 +3,13 @@
 
 #include "io/files/file_cursor.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
+#include <optional>
+#include <span>
 
 namespace slabhull::io {
 
@@ -45,6 +49,76 @@ Point<3> read_point(FileCursor& in) {
     return point;
 }
 
+// --- Lednicer's order: the counts of the upper and the lower side, then both from the leading edge on
+
+struct Counts {
+    std::size_t upper;
+    std::size_t lower;
+};
+
+/// Two whole numbers, as a first line.
+std::optional<Counts> counts_in(const Point<3>& line) {
+    constexpr double fewest = 2;
+    constexpr double most = 1e6;
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (!(line[k] >= fewest && line[k] <= most && line[k] == std::floor(line[k]))) {
+            return std::nullopt;
+        }
+    }
+    return Counts{static_cast<std::size_t>(line[0]), static_cast<std::size_t>(line[1])};
+}
+
+double extent_of(std::span<const Point<3>> points) {
+    double extent = 0;
+    for (const Point<3>& x : points) {
+        extent = std::max({extent, std::abs(x[0] - points[0][0]), std::abs(x[1] - points[0][1])});
+    }
+    return extent;
+}
+
+/// One curve from the trailing edge over the upper side to the leading edge, and back on the lower one.
+void join_sides(Array<Point<3>>& points, const Counts& counts) {
+    const auto lower = points.begin() + 1 + static_cast<std::ptrdiff_t>(counts.upper);
+    Array<Point<3>> curve(std::make_reverse_iterator(lower), std::make_reverse_iterator(points.begin() + 1));
+    const bool same_nose = curve.back() == *lower;
+    curve.insert(curve.end(), lower + (same_nose ? 1 : 0), points.end());
+    points = std::move(curve);
+}
+
+/// Brings the points of a file in Lednicer's order into that of a curve. A file whose first line looks like
+/// counts, far larger than what follows, but that is not so, is refused.
+void settle_order(Soup& soup) {
+    const auto counts = soup.points.size() > 4 ? counts_in(soup.points[0]) : std::nullopt;
+    if (!counts) {
+        return;
+    }
+    const auto rest = std::span{soup.points}.subspan(1);
+    const double extent = extent_of(rest);
+    const bool complete = rest.size() == counts->upper + counts->lower;
+    if (complete) {
+        const Point<3>& nose = rest[0];
+        const Point<3>& other = rest[counts->upper];
+        if (std::hypot(nose[0] - other[0], nose[1] - other[1]) <= 0.01 * extent) {
+            join_sides(soup.points, *counts);
+            soup.remarks.push_back(
+                fmt::format("{}: {} points of an upper and {} of a lower side, both from the "
+                            "leading edge on (Lednicer's order), are one curve",
+                            soup.path, counts->upper, counts->lower));
+            return;
+        }
+    }
+    const bool stands_apart =
+        std::hypot(soup.points[0][0] - rest[0][0], soup.points[0][1] - rest[0][1]) > 2 * extent;
+    if (stands_apart) {
+        throw InputError(
+            fmt::format("{}: its first line looks like the counts of Lednicer's order, {} points of the "
+                        "upper side and {} of the lower, each from the leading edge on, but {}",
+                        soup.path, counts->upper, counts->lower,
+                        complete ? "the two sides do not start at one place"
+                                 : fmt::format("{} points follow", rest.size())));
+    }
+}
+
 void close_loop(Soup& soup) {
     SimplexBlock& lines = soup.simplices[1];
     const Index count = checked_index(soup.points.size(), "points");
@@ -68,6 +142,7 @@ Soup read_curve(const std::filesystem::path& path) {
             soup.points.push_back(read_point(in));
         }
     }
+    settle_order(soup);
     if (soup.points.size() > 1 && soup.points.back() == soup.points.front()) {
         soup.points.pop_back();
     }

@@ -58,6 +58,9 @@ private:
 
     void add_cells(const Soup& piece) {
         const auto top = static_cast<std::size_t>(piece.top_dimension());
+        if (!piece.simplices[top].tags.empty()) {
+            fail(piece, "its cells are of several kinds, which are read from a .vtu by itself only");
+        }
         const auto first = static_cast<Index>(all_.points.size());
         checked_index(first + piece.points.size(), "points");
         Array<Index>& all = all_.simplices[top].vertices;

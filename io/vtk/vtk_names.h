@@ -38,6 +38,35 @@ constexpr int vtk_simplex_type(int dimension) {
     return dimension == 1 ? 3 : dimension == 2 ? 5 : 10;
 }
 
+/// Dimension of a simplex type, -1 for any other: vertex, line, triangle, tetrahedron, or a curved one, whose
+/// corners come first among its points.
+constexpr int vtk_simplex_dimension(int type) {
+    switch (type) {
+    case 1:
+        return 0;
+    case 3:
+    case 21: // quadratic
+    case 35: // cubic
+    case 68: // Lagrange
+        return 1;
+    case 5:
+    case 22:
+    case 34: // with a point in the middle
+    case 69:
+        return 2;
+    case 10:
+    case 24:
+    case 71:
+        return 3;
+    default:
+        return -1;
+    }
+}
+
+constexpr bool vtk_is_curved(int type) {
+    return type > 10 && vtk_simplex_dimension(type) > 0;
+}
+
 /// What the user calls a cell type that we refuse.
 inline std::string vtk_type_name(int type) {
     switch (type) {
@@ -67,6 +96,8 @@ inline std::string vtk_type_name(int type) {
         return "wedge";
     case 14:
         return "pyramid";
+    case 21:
+        return "quadratic line";
     case 22:
         return "quadratic triangle";
     case 24:

@@ -5,6 +5,9 @@
 
 #include "io/files/file_cursor.h"
 #include "io/files/percent_text.h"
+#include "io/mesh/corners_only.h"
+#include "io/mesh/mixed_cells.h"
+#include "io/mesh/readers.h"
 #include "io/vtk/vtk_names.h"
 
 #include <algorithm>
@@ -51,13 +54,12 @@ struct CellList {
     Array<std::uint8_t> types;   ///< VTK's number for each
 };
 
-int simplex_dimension(int type) {
-    return type == 1 ? 0 : type == 3 ? 1 : type == 5 ? 2 : type == 10 ? 3 : -1;
-}
-
 class VtkReader {
 public:
-    VtkReader(std::string_view bytes, const std::string& path) : in_{bytes, path} { soup_.path = path; }
+    VtkReader(std::string_view bytes, const std::string& path, const ReadOptions& options)
+        : in_{bytes, path}, options_{options} {
+        soup_.path = path;
+    }
 
     Soup read() {
         read_head();
@@ -325,12 +327,16 @@ private:
     /// Of the next cell.
     void add_type(int type) {
         const std::size_t cell = cells_.types.size();
-        const int dimension = simplex_dimension(type);
+        const int dimension = vtk_simplex_dimension(type);
         if (dimension < 0) {
             in_.fail(fmt::format("cell {} is a {}; only vertices, lines, triangles and tetrahedra are read",
                                  cell, vtk_type_name(type)));
         }
-        if (cells_.corners[cell] != dimension + 1) {
+        if (vtk_is_curved(type) && !options_.linear) {
+            in_.fail(fmt::format("cell {} is a {}; {}", cell, vtk_type_name(type), how_to_take_corners));
+        }
+        if (vtk_is_curved(type) ? cells_.corners[cell] <= dimension + 1
+                                : cells_.corners[cell] != dimension + 1) {
             in_.fail(
                 fmt::format("cell {}, a {}, has not {} vertices", cell, vtk_type_name(type), dimension + 1));
         }
@@ -508,43 +514,41 @@ private:
     // --- from cells to simplices by dimension ---
 
     void sort_cells() {
-        const bool mixed = std::any_of(cells_.types.begin(), cells_.types.end(),
-                                       [&](auto type) { return type != cells_.types.front(); });
-        if (!mixed) {
-            block(cells_.types.front()).vertices = std::move(cells_.vertices);
+        const std::uint8_t first = cells_.types.front();
+        const bool equal = std::all_of(cells_.types.begin(), cells_.types.end(),
+                                       [first](std::uint8_t type) { return type == first; });
+        if (equal && !vtk_is_curved(first)) {
+            block(first).vertices = std::move(cells_.vertices);
+            settle_equal_cells(soup_, options_.patch_array);
             return;
         }
         const Index* vertex = cells_.vertices.data();
         for (std::size_t cell = 0; cell < cells_.types.size(); ++cell) {
-            SimplexBlock& target = block(cells_.types[cell]);
-            target.vertices.insert(target.vertices.end(), vertex, vertex + cells_.corners[cell]);
-            target.tags.push_back(static_cast<std::int64_t>(cell));
+            take_cell(cell, vertex);
             vertex += cells_.corners[cell];
         }
-        for (DataArray& array : soup_.cell_data) {
-            std::visit([&](auto& values) { keep_top_rows(values, array.components); }, array.values);
+        settle_mixed_cells(soup_, options_.patch_array);
+        corners_only_.finish(soup_);
+    }
+
+    void take_cell(std::size_t cell, const Index* vertices) {
+        SimplexBlock& target = block(cells_.types[cell]);
+        const int corners = vtk_simplex_dimension(cells_.types[cell]) + 1;
+        target.vertices.insert(target.vertices.end(), vertices, vertices + corners);
+        target.tags.push_back(static_cast<std::int64_t>(cell));
+        for (int k = corners; k < cells_.corners[cell]; ++k) {
+            corners_only_.add_between(vertices[k], soup_.points.size());
         }
+        corners_only_.add_cells(vtk_is_curved(cells_.types[cell]) ? 1 : 0);
     }
 
     SimplexBlock& block(std::uint8_t type) {
-        return soup_.simplices[static_cast<std::size_t>(simplex_dimension(type))];
-    }
-
-    template<class Values>
-    void keep_top_rows(Values& values, int components) const {
-        const auto top = static_cast<std::size_t>(soup_.top_dimension());
-        const auto width = static_cast<std::size_t>(components);
-        std::size_t row = 0;
-        for (const std::int64_t cell : soup_.simplices[top].tags) {
-            for (std::size_t k = 0; k < width; ++k) {
-                values[row * width + k] = values[static_cast<std::size_t>(cell) * width + k];
-            }
-            ++row;
-        }
-        values.resize(row * width);
+        return soup_.simplices[static_cast<std::size_t>(vtk_simplex_dimension(type))];
     }
 
     FileCursor in_;
+    const ReadOptions& options_;
+    CornersOnly corners_only_;
     Soup soup_;
     CellList cells_;
     Dataset dataset_ = Dataset::unknown;
@@ -558,8 +562,12 @@ private:
 } // namespace
 
 Soup read_vtk(const std::filesystem::path& path) {
+    return read_vtk(path, ReadOptions{});
+}
+
+Soup read_vtk(const std::filesystem::path& path, const ReadOptions& options) {
     const Array<char> bytes = read_bytes(path);
-    return VtkReader{{bytes.data(), bytes.size()}, path.string()}.read();
+    return VtkReader{{bytes.data(), bytes.size()}, path.string(), options}.read();
 }
 
 } // namespace slabhull::io

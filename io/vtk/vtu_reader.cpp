@@ -4,6 +4,9 @@
 
 #include "io/files/byte_order.h"
 #include "io/files/file_cursor.h"
+#include "io/mesh/corners_only.h"
+#include "io/mesh/mixed_cells.h"
+#include "io/mesh/readers.h"
 #include "io/vtk/vtk_names.h"
 #include "io/vtk/vtu_payload.h"
 #include "io/vtk/vtu_pieces.h"
@@ -18,8 +21,10 @@
 #include <cstddef>
 #include <fmt/format.h>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <pugixml.hpp>
+#include <span>
 #include <utility>
 
 namespace slabhull::io {
@@ -42,7 +47,9 @@ std::uint64_t times(std::uint64_t a, std::uint64_t b) {
 
 class VtuReader {
 public:
-    explicit VtuReader(FileBytes& file) : file_{file}, skeleton_{file} { soup_.path = file.path().string(); }
+    VtuReader(FileBytes& file, const ReadOptions& options) : file_{file}, skeleton_{file}, options_{options} {
+        soup_.path = file.path().string();
+    }
 
     Soup read(bool may_be_empty) {
         parse_xml();
@@ -54,9 +61,15 @@ public:
         for (const pugi::xml_node piece : grid.children("Piece")) {
             read_piece(piece);
         }
-        if (dimension_ == 0 && !(may_be_empty && soup_.points.empty())) {
-            fail(grid, "there are no cells");
+        if (soup_.top_dimension() == 0 && !(may_be_empty && soup_.points.empty())) {
+            fail(grid, "there are no cells but points");
         }
+        if (is_mixed_) {
+            settle_mixed_cells(soup_, options_.patch_array);
+        } else {
+            settle_equal_cells(soup_, options_.patch_array);
+        }
+        corners_only_.finish(soup_);
         return std::move(soup_);
     }
 
@@ -353,41 +366,124 @@ private:
             }
             return node;
         };
-        check_types(array("types"), count);
-        const std::size_t corners = dimension_ + 1;
-        check_offsets(array("offsets"), count, corners);
-        read_connectivity(array("connectivity"), times(count, corners), corners);
+        if (has_equal_cells(array("types"), count)) {
+            const std::size_t corners = dimension_ + 1;
+            check_offsets(array("offsets"), count, corners);
+            read_connectivity(array("connectivity"), times(count, corners), corners);
+        } else {
+            separate_cells_before();
+            read_mixed_cells(array("offsets"), array("connectivity"));
+        }
+        cells_before_ += count;
     }
 
-    /// The first cell of all decides what the mesh is made of.
-    void check_types(const pugi::xml_node& node, std::uint64_t claimed) {
+    /// Whether all cells, also those of the pieces before, are straight simplices of one kind; otherwise
+    /// their types are in types_.
+    bool has_equal_cells(const pugi::xml_node& node, std::uint64_t claimed) {
         const auto start = [&](std::uint64_t types) {
             if (types != claimed) {
                 fail(node, fmt::format("{} cells are claimed, {} types are there", claimed, types));
             }
             checked_index(types, "cells");
-            return nullptr;
+            types_.clear();
+            return grow(types_, types, claimed);
         };
-        values(node, type_of(node), claimed, start, [&](std::nullptr_t, std::uint64_t cell, auto value) {
+        values(node, type_of(node), claimed, start, [&](std::uint8_t* types, std::uint64_t cell, auto value) {
             const auto type = static_cast<std::int64_t>(value);
-            if (dimension_ == 0) {
-                dimension_ = dimension_of(type);
-            }
-            if (type != vtk_simplex_type(static_cast<int>(dimension_))) {
-                fail(node,
-                     fmt::format("cell {} is a {}; only lines, only triangles or only tetrahedra are read",
-                                 cell, vtk_type_name(static_cast<int>(type & 0xFF))));
-            }
+            types[cell] = require_type(node, cell, type);
         });
+        const bool equal =
+            std::equal(types_.begin() + (types_.empty() ? 0 : 1), types_.end(), types_.begin());
+        const int type = types_.empty() ? 0 : types_.front();
+        const auto dimension = static_cast<std::size_t>(std::max(0, vtk_simplex_dimension(type)));
+        if (is_mixed_ || !equal || vtk_is_curved(type) || dimension == 0 ||
+            (dimension_ != 0 && dimension_ != dimension)) {
+            return types_.empty();
+        }
+        dimension_ = dimension;
+        types_ = {};
+        return true;
     }
 
-    /// 1 for what is no simplex, too: it is refused with a name then.
-    static std::size_t dimension_of(std::int64_t type) {
-        int dimension = 3;
-        while (dimension > 1 && type != vtk_simplex_type(dimension)) {
-            --dimension;
+    std::uint8_t require_type(const pugi::xml_node& node, std::uint64_t cell, std::int64_t type) const {
+        const int number = static_cast<int>(type & 0xFF);
+        if (type != number || vtk_simplex_dimension(number) < 0) {
+            fail(node, fmt::format("cell {} is a {}; only vertices, lines, triangles and tetrahedra are read",
+                                   cell, vtk_type_name(number)));
         }
-        return static_cast<std::size_t>(dimension);
+        if (vtk_is_curved(number) && !options_.linear) {
+            fail(node, fmt::format("cell {} is a {}; {}", cell, vtk_type_name(number), how_to_take_corners));
+        }
+        return static_cast<std::uint8_t>(number);
+    }
+
+    /// From now on, cells are of several kinds: those of the pieces before get tags, too.
+    void separate_cells_before() {
+        if (!is_mixed_ && dimension_ != 0) {
+            auto& tags = soup_.simplices[dimension_].tags;
+            tags.resize(soup_.simplices[dimension_].size(static_cast<int>(dimension_)));
+            std::iota(tags.begin(), tags.end(), std::int64_t{0});
+        }
+        is_mixed_ = true;
+    }
+
+    void read_mixed_cells(const pugi::xml_node& offset_node, const pugi::xml_node& node) {
+        Array<std::int64_t> ends;
+        const auto start = [&](std::uint64_t offsets) {
+            if (offsets != types_.size()) {
+                fail(offset_node, fmt::format("{} offsets for {} cells", offsets, types_.size()));
+            }
+            return grow(ends, offsets, offsets);
+        };
+        values(offset_node, type_of(offset_node), types_.size(), start,
+               [](std::int64_t* place, std::uint64_t i, auto value) {
+                   place[i] = static_cast<std::int64_t>(value);
+               });
+        const Array<Index> vertices = vertices_of_cells(node, ends.empty() ? 0 : ends.back());
+        std::int64_t begin = 0;
+        for (std::size_t cell = 0; cell < ends.size(); begin = ends[cell++]) {
+            const auto corners = vtk_simplex_dimension(types_[cell]) + 1;
+            const bool fits =
+                vtk_is_curved(types_[cell]) ? ends[cell] - begin > corners : ends[cell] - begin == corners;
+            if (!fits || ends[cell] > static_cast<std::int64_t>(vertices.size())) {
+                fail(offset_node, fmt::format("cell {} is a {}, but it has not {} vertices", cell,
+                                              vtk_type_name(types_[cell]), corners));
+            }
+            add_cell(cell, std::span{vertices}.subspan(static_cast<std::size_t>(begin),
+                                                       static_cast<std::size_t>(ends[cell] - begin)));
+        }
+    }
+
+    Array<Index> vertices_of_cells(const pugi::xml_node& node, std::int64_t claimed) {
+        const std::uint64_t points = soup_.points.size() - first_point_;
+        Array<Index> vertices;
+        const auto start = [&](std::uint64_t count) {
+            if (std::cmp_not_equal(count, claimed)) {
+                fail(node, fmt::format("{} vertices, but the cells end at {}", count, claimed));
+            }
+            return grow(vertices, count, count);
+        };
+        const auto most = static_cast<std::uint64_t>(std::max<std::int64_t>(0, claimed));
+        values(node, type_of(node), most, start, [&](Index* place, std::uint64_t i, auto value) {
+            if (value < 0 || static_cast<std::uint64_t>(value) >= points) {
+                fail(node,
+                     fmt::format("place {} names a point that does not exist; there are {}", i, points));
+            }
+            place[i] = static_cast<Index>(first_point_ + static_cast<std::uint64_t>(value));
+        });
+        return vertices;
+    }
+
+    void add_cell(std::size_t cell, std::span<const Index> vertices) {
+        const auto dimension = static_cast<std::size_t>(vtk_simplex_dimension(types_[cell]));
+        SimplexBlock& block = soup_.simplices[dimension];
+        block.vertices.insert(block.vertices.end(), vertices.begin(),
+                              vertices.begin() + static_cast<std::ptrdiff_t>(dimension + 1));
+        block.tags.push_back(static_cast<std::int64_t>(cells_before_ + cell));
+        for (const Index vertex : vertices.subspan(dimension + 1)) {
+            corners_only_.add_between(vertex, soup_.points.size());
+        }
+        corners_only_.add_cells(vtk_is_curved(types_[cell]) ? 1 : 0);
     }
 
     void check_offsets(const pugi::xml_node& node, std::uint64_t cells, std::size_t corners) {
@@ -528,10 +624,15 @@ private:
 
     FileBytes& file_;
     VtuSkeleton skeleton_;
+    const ReadOptions& options_;
+    CornersOnly corners_only_;
     pugi::xml_document document_;
     PayloadFormat format_;
-    std::uint64_t consumed_ = 0;   ///< bytes of the file that made arrays
-    std::size_t dimension_ = 0;    ///< 0 until there was a cell
+    std::uint64_t consumed_ = 0; ///< bytes of the file that made arrays
+    std::size_t dimension_ = 0;  ///< 0 until there was a cell in a piece of equal cells
+    bool is_mixed_ = false;      ///< cells are of several kinds, or curved: their tags are their rows
+    Array<std::uint8_t> types_;  ///< of the piece's cells where it is mixed
+    std::uint64_t cells_before_ = 0;
     std::size_t first_point_ = 0;  ///< of the piece
     std::uint64_t all_points_ = 0; ///< that the pieces claim
     std::uint64_t all_cells_ = 0;
@@ -542,13 +643,18 @@ private:
 } // namespace
 
 Soup read_vtu(const std::filesystem::path& path) {
+    return read_vtu(path, ReadOptions{});
+}
+
+Soup read_vtu(const std::filesystem::path& path, const ReadOptions& options) {
     FileBytes file{path};
-    return VtuReader{file}.read(false);
+    return VtuReader{file, options}.read(false);
 }
 
 Soup read_vtu_piece(const std::filesystem::path& path) {
     FileBytes file{path};
-    return VtuReader{file}.read(true);
+    const ReadOptions options;
+    return VtuReader{file, options}.read(true);
 }
 
 std::vector<std::string> pvtu_sources(const std::filesystem::path& path) {

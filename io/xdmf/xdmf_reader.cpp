@@ -4,6 +4,8 @@
 
 #include "io/files/byte_order.h"
 #include "io/files/file_cursor.h"
+#include "io/mesh/mixed_cells.h"
+#include "io/mesh/readers.h"
 #include "io/vtk/vtk_names.h"
 #include "io/xdmf/hdf5_file.h"
 #include "io/xdmf/xdmf_names.h"
@@ -59,8 +61,8 @@ struct Item {
 
 class XdmfReader {
 public:
-    XdmfReader(const Array<char>& bytes, const std::filesystem::path& path)
-        : folder_{std::filesystem::weakly_canonical(path).parent_path()} {
+    XdmfReader(const Array<char>& bytes, const std::filesystem::path& path, const ReadOptions& options)
+        : options_{options}, folder_{std::filesystem::weakly_canonical(path).parent_path()} {
         soup_.path = path.string();
         const pugi::xml_parse_result result =
             document_.load_buffer(bytes.data(), bytes.size(), pugi::parse_default, pugi::encoding_utf8);
@@ -80,6 +82,11 @@ public:
             if (std::string_view{node.attribute("Name").value()} == xdmf_fields) {
                 read_fields(node);
             }
+        }
+        if (soup_.simplices[static_cast<std::size_t>(soup_.top_dimension())].tags.empty()) {
+            settle_equal_cells(soup_, options_.patch_array);
+        } else {
+            settle_mixed_cells(soup_, options_.patch_array);
         }
         return std::move(soup_);
     }
@@ -421,7 +428,6 @@ private:
             }
         } else if (same_word(center, "Cell")) {
             soup_.cell_data.push_back(data_array(node, cells_));
-            keep_top_rows(soup_.cell_data.back());
         } else if (same_word(center, "Grid")) {
             soup_.field_data.push_back(data_array(node, std::nullopt));
         } else {
@@ -500,26 +506,7 @@ private:
         return result;
     }
 
-    /// Of mixed cells, data of those of the largest dimension.
-    void keep_top_rows(DataArray& array) const {
-        const SimplexBlock& block = soup_.simplices[static_cast<std::size_t>(soup_.top_dimension())];
-        if (block.tags.empty() || block.tags.size() == cells_) {
-            return;
-        }
-        const auto width = static_cast<std::size_t>(array.components);
-        std::visit(
-            [&](auto& values) {
-                auto out = values.begin();
-                for (const std::int64_t cell : block.tags) {
-                    const auto row =
-                        values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(cell) * width);
-                    out = std::copy_n(row, width, out);
-                }
-                values.erase(out, values.end());
-            },
-            array.values);
-    }
-
+    const ReadOptions& options_;
     std::filesystem::path folder_;
     pugi::xml_document document_;
     std::map<std::string, Hdf5Reader> readers_;
@@ -530,7 +517,11 @@ private:
 } // namespace
 
 Soup read_xdmf(const std::filesystem::path& path) {
-    return XdmfReader{read_bytes(path), path}.read();
+    return read_xdmf(path, ReadOptions{});
+}
+
+Soup read_xdmf(const std::filesystem::path& path, const ReadOptions& options) {
+    return XdmfReader{read_bytes(path), path, options}.read();
 }
 
 } // namespace slabhull::io

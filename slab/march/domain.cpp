@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -298,11 +299,9 @@ private:
 
     void name_patches() {
         std::map<PatchNumber, std::string> names;
-        PatchNumber largest = 0;
         for (const PatchNumber number : mesh_.boundary_patch) {
             if (number > 0) {
                 names.emplace(number, fmt::format("{}", number)); // a patch without a name goes by its number
-                largest = std::max(largest, number);
             }
         }
         for (const Patch& patch : input_.patches) {
@@ -313,13 +312,28 @@ private:
         }
         const auto without = std::count(mesh_.boundary_patch.begin(), mesh_.boundary_patch.end(), 0);
         if (without > 0) {
-            std::replace(mesh_.boundary_patch.begin(), mesh_.boundary_patch.end(), 0, largest + 1);
-            names.emplace(largest + 1, "boundary");
+            const PatchNumber rest = number_of_rest(names);
+            std::replace(mesh_.boundary_patch.begin(), mesh_.boundary_patch.end(), 0, rest);
+            names.emplace(rest, rest_name);
             domain_.facets_without_patch = static_cast<std::size_t>(without);
         }
         for (const auto& [number, name] : names) {
             mesh_.patches.push_back({number, name});
         }
+    }
+
+    /// That of the patch called so, else the one after the last.
+    static PatchNumber number_of_rest(const std::map<PatchNumber, std::string>& names) {
+        const auto called = std::find_if(names.begin(), names.end(),
+                                         [](const auto& each) { return each.second == rest_name; });
+        if (called != names.end()) {
+            return called->first;
+        }
+        PatchNumber number = names.empty() ? 1 : names.rbegin()->first;
+        while (names.contains(number)) {
+            number = number == std::numeric_limits<PatchNumber>::max() ? 1 : number + 1;
+        }
+        return number;
     }
 
     /// Facets by the user's numbers, if all of the boundary are in the input.
@@ -328,6 +342,8 @@ private:
             std::find(boundary_numbers_.begin(), boundary_numbers_.end(), -1) == boundary_numbers_.end();
         return {input_.where, all_listed ? boundary_numbers_ : std::vector<std::int64_t>{}};
     }
+
+    static constexpr const char* rest_name = "boundary";
 
     DomainInput<D> input_;
     Domain<D> domain_;

@@ -3,6 +3,7 @@
 
 #include "slab/march/cap_reuse.h"
 #include "slabhull/core/progress.h"
+#include "slabhull/core/memory.h"
 #include "slabhull/slab/tangling.h"
 
 #include <fmt/format.h>
@@ -53,6 +54,31 @@ std::optional<std::size_t> enough_layers(const Boundary<D>& boundary, const Spat
     }
 }
 
+/// What the hull takes in memory for each simplex of the side.
+template<int D>
+constexpr double bytes_per_simplex = D == 3 ? 39 : 36;
+
+/// Throws LimitError, with the figures, where the side would be more than indices or memory can hold.
+template<int D>
+void require_attainable_side(const Boundary<D>& boundary, std::size_t layers, Split split) {
+    const auto facets = static_cast<double>(boundary.facets().size());
+    const auto of_prism = simplices_per_prism(split);
+    const double simplices = facets * static_cast<double>(layers) * of_prism;
+    const double levels =
+        8.0 * D * static_cast<double>(boundary.vertex_count()) * static_cast<double>(layers);
+    const double bytes = bytes_per_simplex<D> * simplices + levels;
+    const auto free = static_cast<double>(available_memory());
+    constexpr auto most_indices = static_cast<double>(no_index);
+    if (simplices <= most_indices && bytes <= free) {
+        return;
+    }
+    throw LimitError{fmt::format(
+        "a side of {} facets in {} layers, {} simplices each, is {:.3g} simplices and takes {:.3g} GB; "
+        "indices count up "
+        "to {:.2g}, and {:.3g} GB are free. Fewer layers, more slabs or a coarser boundary would do",
+        boundary.facets().size(), layers, of_prism, simplices, 1e-9 * bytes, most_indices, 1e-9 * free)};
+}
+
 /// Step 3 of the method, with layers as they are given or as the motion needs them.
 template<int D>
 Sweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std::vector<double> times,
@@ -61,6 +87,7 @@ Sweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std:
         throw UsageError{
             fmt::format("layers follow from the motion, so a slab has two times, not {}", times.size())};
     }
+    require_attainable_side<D>(boundary, times.size() - 1, settings.side.split);
     MeasuredSweep<D> swept =
         settings.layers.automatic
             ? sweep_in_layers<D>(boundary, cap, settings.motions, settings.motion_start, {times[0], times[1]},
@@ -68,6 +95,7 @@ Sweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std:
             : sweep_measured<D>(boundary, cap, settings.motions, settings.motion_start, std::move(times),
                                 settings.trajectory, settings.layers);
     slab.layers = swept.fit;
+    require_attainable_side<D>(boundary, swept.sweep.layers(), settings.side.split);
     if (!swept.fit.sound() && settings.layers.suggest) {
         slab.layers_enough = enough_layers(boundary, cap, swept.sweep.times, settings, swept.fit);
     }

@@ -52,3 +52,30 @@ TEST_CASE("A damaged curve file is refused with its line", "[io]") {
     CHECK_THAT(refusal(""), Catch::Contains("0 points"));
     CHECK_THAT(scratch::refusal(io::read_curve, "/nowhere/at.all"), Catch::Contains("No such file"));
 }
+
+namespace {
+
+constexpr const char* lednicer =
+    "AIRFOIL\n  4.  3.\n\n 0 0\n 0.2 0.1\n 0.6 0.1\n 1 0.01\n\n 0 0\n 0.5 -0.1\n 1 -0.01\n";
+
+} // namespace
+
+TEST_CASE("An airfoil in Lednicer's order is one curve around both sides", "[io]") {
+    const io::Soup soup = curve(lednicer);
+    CHECK(soup.points ==
+          Array<Point<3>>{
+              {1, 0.01, 0}, {0.6, 0.1, 0}, {0.2, 0.1, 0}, {0, 0, 0}, {0.5, -0.1, 0}, {1, -0.01, 0}});
+    REQUIRE(soup.remarks.size() == 1);
+    CHECK_THAT(soup.remarks[0], Catch::Contains("4 points of an upper and 3 of a lower side"));
+    INFO("a common trailing edge is one point");
+    CHECK(curve(scratch::replaced(lednicer, "1 -0.01", "1 0.01")).points.size() == 5);
+}
+
+TEST_CASE("What only looks like Lednicer's order is told so, and a polygon stays one", "[io]") {
+    CHECK_THAT(refusal(scratch::replaced(lednicer, "4.  3.", "4.  4.")),
+               Catch::Contains("Lednicer") && Catch::Contains("7 points follow"));
+    CHECK_THAT(refusal(scratch::replaced(lednicer, " 0 0\n 0.5", " 0.9 0\n 0.5")),
+               Catch::Contains("do not start at one place"));
+    CHECK(curve("10 10\n11 10\n11 11\n10.5 12\n10 11\n").points.size() == 5);
+    CHECK(curve("3 2\n0 4\n-3 4\n-6 0\n0 -5\n3 -5\n").points.size() == 6);
+}

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <set>
 
 using namespace slabhull;
 
@@ -202,12 +203,168 @@ TEST_CASE("A surface file without triangles is refused", "[io]") {
     }
 }
 
-TEST_CASE("Polygons are refused with the face's number", "[io]") {
-    CHECK_THAT(refusal("a.off", scratch::replaced(off(), "3 1 2 3", "4 1 2 3 0")),
-               Catch::Contains("line 9") && Catch::Contains("face 2 has 4 vertices"));
-    CHECK_THAT(refusal("a.obj", obj() + "f 1 2 3 4\n"), Catch::Contains("face 6 has 4 vertices"));
-    CHECK_THAT(refusal("a.ply", scratch::replaced(ascii_ply(), "0 3 1 2 3", "0 4 1 2 3 0")),
-               Catch::Contains("face 2"));
+TEST_CASE("A polygon that is not planar is refused with the face's number", "[io]") {
+    const auto bent = [](const std::string& text) { return scratch::replaced(text, "-1e-20", "-0.01"); };
+    CHECK_THAT(refusal("a.off", scratch::replaced(bent(off()), "3 1 2 3", "4 1 2 3 0")),
+               Catch::Contains("line 9") && Catch::Contains("face 2 has 4 vertices") &&
+                   Catch::Contains("not in one plane"));
+    CHECK_THAT(refusal("a.obj", bent(obj()) + "f 1 2 3 4\n"), Catch::Contains("face 6 has 4 vertices"));
+    CHECK_THAT(refusal("a.ply", scratch::replaced(bent(ascii_ply()), "0 3 1 2 3", "0 4 1 2 3 0")),
+               Catch::Contains("face 2 has 4 vertices"));
+}
+
+namespace {
+
+/// A face of the given outline in the plane z = x / 2 and a triangle beside it.
+std::string off_of(const std::vector<std::array<double, 2>>& outline) {
+    std::string text = fmt::format("OFF {} 2 0\n", outline.size() + 1);
+    for (const auto& [x, y] : outline) {
+        text += fmt::format("{} {} {}\n", x, y, x / 2);
+    }
+    text += fmt::format("9 9 9\n{}", outline.size());
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        text += fmt::format(" {}", i);
+    }
+    return text + fmt::format("\n3 0 1 {}\n", outline.size());
+}
+
+double flat_area(const io::Soup& soup, std::size_t triangle) {
+    const auto corner = [&](std::size_t k) {
+        return soup.points[soup.simplices[2].vertices[3 * triangle + k]];
+    };
+    const Point<3> a = corner(0);
+    const Point<3> b = corner(1);
+    const Point<3> c = corner(2);
+    return ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+}
+
+/// The sides of some triangles that no other one has the other way round.
+std::set<std::pair<Index, Index>> outline_of(const io::Soup& soup, std::size_t triangles) {
+    std::set<std::pair<Index, Index>> sides;
+    for (std::size_t i = 0; i < triangles; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = soup.simplices[2].vertices[3 * i + k];
+            const Index b = soup.simplices[2].vertices[3 * i + (k + 1) % 3];
+            if (sides.erase({b, a}) == 0) {
+                sides.emplace(a, b);
+            }
+        }
+    }
+    return sides;
+}
+
+struct Outline {
+    const char* name;
+    std::vector<std::array<double, 2>> places;
+    double area;
+    double least; ///< area of the smallest triangle, at least
+};
+
+std::vector<Outline> outlines() {
+    std::vector<std::array<double, 2>> comb{{0, 0}, {20, 0}};
+    for (int i = 20; i > 0; i -= 2) {
+        comb.push_back({i - 0.5, 5});
+        comb.push_back({i - 1.5, 1});
+    }
+    double area = 0;
+    for (std::size_t i = 0; i < comb.size(); ++i) {
+        const auto& a = comb[i];
+        const auto& b = comb[(i + 1) % comb.size()];
+        area += (a[0] * b[1] - a[1] * b[0]) / 2;
+    }
+    return {
+        {"a square", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1, 0.5},
+        {"an arrow head, of which one diagonal is outside", {{0, 0}, {4, 2}, {0, 4}, {1, 2}}, 6, 3},
+        {"a quadrilateral with a better diagonal", {{0, 0}, {10, 0}, {10, 1}, {0, 4}}, 25, 5},
+        {"a triangle with vertices on its sides", {{0, 0}, {1, 0}, {2, 0}, {1, 1}, {0, 2}, {0, 1}}, 2, 0.1},
+        {"a vertex that is on a side up to rounding", {{0, 0}, {1, -1e-9}, {2, 0}, {0, 2}}, 2, 0.5},
+        {"an L", {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 3, 0.4},
+        {"a comb", comb, area, 0.01}};
+}
+
+} // namespace
+
+TEST_CASE("A planar polygon becomes triangles that fill it and keep its sides", "[io]") {
+    for (const Outline& outline : outlines()) {
+        CAPTURE(outline.name);
+        const std::size_t n = outline.places.size();
+        const io::Soup soup = surface("a.off", off_of(outline.places));
+        const io::SimplexBlock& block = soup.simplices[2];
+        REQUIRE(block.size(2) == n - 1);
+        double area = 0;
+        for (std::size_t i = 0; i + 3 <= n; ++i) {
+            CHECK(flat_area(soup, i) >= outline.least);
+            CHECK(block.tag(i) == 0);
+            area += flat_area(soup, i);
+        }
+        CHECK(block.tag(n - 2) == 1);
+        CHECK(area == Approx(outline.area).epsilon(1e-8));
+        const auto sides = outline_of(soup, n - 2);
+        CHECK(sides.size() == n);
+        for (Index i = 0; i < n; ++i) {
+            CHECK(sides.contains({i, static_cast<Index>((i + 1) % n)}));
+        }
+        REQUIRE(soup.remarks.size() == 1);
+        CHECK_THAT(soup.remarks[0],
+                   Catch::Contains(fmt::format("1 planar polygons are cut into {} triangles", n - 2)));
+    }
+}
+
+TEST_CASE("Polygons come from OBJ and PLY, too", "[io]") {
+    const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    const Array<Index> expected =
+        surface("a.off", "OFF\n4 1 0\n" + vertices + "4 0 1 2 3\n").simplices[2].vertices;
+    CHECK(expected.size() == 6);
+    CHECK(surface("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf -4 -3/1 -2//7 4\n").simplices[2].vertices ==
+          expected);
+    CHECK(surface("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                           "property float z\nelement face 1\nproperty list uchar int vertex_index\n"
+                           "end_header\n" +
+                               vertices + "4 0 1 2 3\n")
+              .simplices[2]
+              .vertices == expected);
+}
+
+TEST_CASE("Polygons that bound no plane area are refused", "[io]") {
+    for (const Outline& outline : std::vector<Outline>{
+             {"in a line", {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 0, 0},
+             {"two triangles that cross", {{0, 0}, {2, 2}, {2, 0}, {0, 2}}, 0, 0},
+             {"a side that goes back on itself", {{0, 0}, {2, 0}, {2, 2}, {2, 0}, {1, 1}}, 0, 0}}) {
+        CAPTURE(outline.name);
+        CHECK_THAT(refusal("a.off", off_of(outline.places)), Catch::Contains("face 0 has"));
+    }
+    CHECK_THAT(refusal("a.off", scratch::replaced(off(), "3 1 2 3", "2 1 2")), Catch::Contains("face 2"));
+    CHECK_THAT(refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n"), Catch::Contains("face 1 has 2"));
+}
+
+namespace {
+
+/// The name of the group of each triangle.
+std::vector<std::string> names_of_faces(const io::Soup& soup) {
+    std::vector<std::string> names;
+    for (const PatchNumber number : soup.simplices[2].physical) {
+        names.push_back(number == 0 ? "" : patch_name(soup.groups[2], number));
+    }
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("Solids, groups, materials and part numbers are groups by their names", "[io]") {
+    using Names = std::vector<std::string>;
+    CHECK(names_of_faces(surface("a.stl", ascii_stl())) ==
+          Names{"outer facet of the body", "outer facet of the body", "", "", ""});
+    CHECK(names_of_faces(surface("a.stl", binary_stl())).empty());
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    CHECK(
+        names_of_faces(surface("a.obj", vertices + "o body\ng low\nf 1 3 2\ng top side\nusemtl red\nf 1 2 4\n"
+                                                   "f 2 3 4\ng low\nf 3 1 4\n")) ==
+        Names{"low", "top side", "top side", "low"});
+    INFO("the one that parts the faces counts");
+    CHECK(names_of_faces(surface("a.obj", vertices + "g default\nf 1 3 2\nusemtl red\nf 1 2 4\nusemtl blue\n"
+                                                     "f 2 3 4\n")) == Names{"", "red", "blue"});
+    CHECK(names_of_faces(surface("a.ply", scratch::replaced(ascii_ply(), "uchar flag", "uchar patch"))) ==
+          Names(faces.size(), "0"));
 }
 
 TEST_CASE("An index one too high is refused with the face's number", "[io]") {

@@ -13,6 +13,10 @@ using scratch::fixture;
 
 namespace {
 
+io::Soup read_any(const std::filesystem::path& path) {
+    return io::read_mesh(path);
+}
+
 const std::string small_text =
     "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
     "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n"
@@ -69,18 +73,98 @@ TEST_CASE("A grid of triangles is read", "[io]") {
     CHECK(soup.simplices[2].vertices == gmsh.simplices[2].vertices);
 }
 
+TEST_CASE("Cells of several dimensions are parted, and keep their numbers as tags", "[io]") {
+    const io::Soup soup =
+        io::read_vtu(fixture("mixed.vtu")); // 24 tetrahedra and the 24 triangles around them
+    CHECK(soup.simplices[3].size(3) == 24);
+    CHECK(soup.simplices[2].size(2) == 24);
+    CHECK(soup.simplices[3].tags.front() == 0);
+    CHECK(soup.simplices[2].tags.front() == 24);
+    CHECK(soup.simplices[2].physical.empty());
+}
+
+namespace {
+
+/// A square of two triangles with its four sides, of which `array` says the parts.
+std::string square(const std::string& array, const std::string& more = "") {
+    return "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" "
+           "NumberOfCells=\"6\">"
+           "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0 1 0 0 1 1 0 0 1 "
+           "0</DataArray></Points>"
+           "<Cells><DataArray type=\"Int64\" Name=\"connectivity\">0 1 0 1 2 1 2 2 3 0 2 3 3 0</DataArray>"
+           "<DataArray type=\"Int64\" Name=\"offsets\">2 5 7 9 12 14</DataArray>"
+           "<DataArray type=\"UInt8\" Name=\"types\">3 5 3 3 5 3</DataArray></Cells><CellData>" +
+           more + "<DataArray type=\"Int32\" Name=\"" + array +
+           "\">4 9 0 5 -1 5</DataArray><DataArray type=\"Float64\" Name=\"h\">0 1 2 3 4 5</DataArray>"
+           "</CellData></Piece></UnstructuredGrid></VTKFile>";
+}
+
+} // namespace
+
+TEST_CASE("Arrays that others call so say the groups of mixed cells, or one that is asked for", "[io]") {
+    const scratch::Folder folder;
+    const auto check = [](const io::Soup& soup) {
+        CHECK(soup.simplices[1].vertices == Array<Index>{0, 1, 1, 2, 2, 3, 3, 0});
+        CHECK(soup.simplices[1].physical == std::vector<PatchNumber>{4, 0, 5, 5});
+        CHECK(soup.simplices[2].physical == std::vector<PatchNumber>{9, 0});
+        CHECK(soup.groups[1] == PatchList{{4, ""}, {5, ""}});
+        REQUIRE(soup.find_cell_data("h") != nullptr);
+        CHECK(std::get<Array<double>>(soup.find_cell_data("h")->values) == Array<double>{1, 4});
+    };
+    for (const std::string name : {"gmsh:physical", "medit:ref", "patch"}) {
+        CAPTURE(name);
+        check(io::read_vtu(scratch::put(folder / "a.vtu", square(name))));
+    }
+    const std::string other = "<DataArray type=\"Int32\" Name=\"patch\">1 1 1 1 1 1</DataArray>";
+    const auto path = scratch::put(folder / "a.vtu", square("zone", other));
+    check(io::read_mesh(path, {false, "zone"}));
+    CHECK(io::read_vtu(path).simplices[1].physical == std::vector<PatchNumber>{1, 1, 1, 1});
+    try {
+        io::read_mesh(path, {false, "h"});
+        FAIL("an array of reals is no array of groups");
+    } catch (const InputError& error) {
+        CHECK_THAT(error.what(), Catch::Contains("\"h\"") && Catch::Contains("patch, zone, h"));
+    }
+}
+
+TEST_CASE("Of quadratic cells, the corners are taken where that is asked for", "[io]") {
+    const scratch::Folder folder;
+    const auto path =
+        scratch::put(folder / "a.vtu",
+                     "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"7\" "
+                     "NumberOfCells=\"2\">"
+                     "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0  .5 -.1 0  1 0 0  "
+                     ".6 .5 0  0 1 0  0 .5 0"
+                     "  2 0 0</DataArray></Points><PointData><DataArray type=\"Int32\" Name=\"i\">0 1 2 3 4 "
+                     "5 6</DataArray></PointData>"
+                     "<Cells><DataArray type=\"Int64\" Name=\"connectivity\">0 2 4 1 3 5 0 2 1</DataArray>"
+                     "<DataArray type=\"Int64\" Name=\"offsets\">6 9</DataArray>"
+                     "<DataArray type=\"UInt8\" Name=\"types\">22 "
+                     "21</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>");
+    CHECK_THAT(scratch::refusal(io::read_vtu, path),
+               Catch::Contains("cell 0 is a quadratic triangle") && Catch::Contains("linear"));
+    const io::Soup soup = io::read_mesh(path, {true, ""});
+    CHECK(soup.points == Array<Point<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}});
+    CHECK(soup.point_tags == Array<std::int64_t>{0, 2, 4, 6});
+    CHECK(soup.simplices[2].vertices == Array<Index>{0, 1, 2});
+    CHECK(soup.simplices[1].vertices == Array<Index>{0, 1});
+    CHECK(std::get<Array<std::int64_t>>(soup.point_data[0].values) == Array<std::int64_t>{0, 2, 4, 6});
+    REQUIRE(soup.remarks.size() == 1);
+    CHECK_THAT(soup.remarks[0], Catch::Contains("2 curved elements") && Catch::Contains("3 points"));
+}
+
 TEST_CASE("A VTU file that we do not read is refused by name", "[io]") {
     using Catch::Contains;
     CHECK_THAT(text_refusal("version", "compressor=\"vtkLZMADataCompressor\" version"),
                Contains("vtkLZMADataCompressor"));
     CHECK_THAT(text_refusal("\"LittleEndian", "\"MiddleEndian"), Contains("MiddleEndian"));
     CHECK_THAT(text_refusal("version", "header_type=\"UInt16\" version"), Contains("UInt16"));
-    CHECK_THAT(scratch::refusal(io::read_vtu, fixture("mixed.vtu")), Contains("is a triangle"));
     CHECK_THAT(scratch::refusal(io::read_vtu, fixture("quads.msh")), Contains("no VTU file"));
     CHECK_THAT(text_refusal("UnstructuredGrid\"", "PolyData\""), Contains("PolyData"));
     CHECK_THAT(text_refusal(">10<", ">12<"), Contains("cell 0 is a hexahedron"));
     CHECK_THAT(text_refusal(">10<", ">3<"), Contains("cell 0 has not 2 vertices"));
-    CHECK_THAT(text_refusal(">10<", ">1<"), Contains("cell 0 is a vertex"));
+    CHECK_THAT(text_refusal(">10<", ">1<"), Contains("cell 0 is a vertex, but it has not 1 vertices"));
+    CHECK_THAT(text_refusal(">10<", ">24<"), Contains("cell 0 is a quadratic tetrahedron"));
     CHECK_THAT(text_refusal("\"Int32\" Name=\"c", "\"Bit\" Name=\"c"), Contains("\"Bit\""));
 }
 
@@ -194,7 +278,6 @@ TEST_CASE("A mesh file is known by its extension, in any case, or else by its co
     }
     CHECK(io::read_mesh(scratch::put(folder / "b", scratch::bytes_of(fixture("size_t_4.msh"))))
               .top_dimension() == 3);
-    CHECK_THAT(scratch::refusal(io::read_mesh, scratch::put(folder / "c", "junk")),
-               Catch::Contains("neither"));
-    CHECK_THAT(scratch::refusal(io::read_mesh, folder / "none"), Catch::Contains("No such file"));
+    CHECK_THAT(scratch::refusal(read_any, scratch::put(folder / "c", "junk")), Catch::Contains("neither"));
+    CHECK_THAT(scratch::refusal(read_any, folder / "none"), Catch::Contains("No such file"));
 }

@@ -26,7 +26,8 @@ using Numbers = std::vector<double>;
 /// A closed surface (D = 3) or curve (D = 2) from a file, kept as it is.
 struct BodyFile {
     std::filesystem::path file;
-    std::string patch;
+    std::string patch;            ///< of all facets, or
+    bool patches_of_file = false; ///< .. of those in no named part of the file, where its parts are patches
 };
 
 /// An ellipsoid or ellipse meshed by Slabhull: those of the experiments.
@@ -47,6 +48,8 @@ struct BoxSpec {
 /// The domain as a mesh that exists: boundary facets in no group get the patch "boundary".
 struct InitialMesh {
     std::filesystem::path file;
+    std::vector<std::string> regions; ///< groups of cells that are the domain; empty: all cells
+    io::ReadOptions reading;
 };
 
 /// The domain as an outer boundary with bodies inside, to be meshed first.

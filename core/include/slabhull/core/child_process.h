@@ -25,7 +25,7 @@ using Receive = std::function<bool(void* bytes, std::size_t size)>;
 /// ignores stays ignored; streams are flushed neither before nor after. A job that throws ends it with exit
 /// code 3. `receive` runs here meanwhile and returns whether it got all. The bytes go through a pipe straight
 /// to where the caller wants them, so that no copy is held in between.
-/// The child dies with the calling thread; Ctrl-C and SIGTERM are for the caller to answer.
+/// The child dies with the calling thread, by Ctrl-C too.
 /// Throws Interrupted when the work is to stop (see ProgressScope): the child has then been ended.
 /// Throws std::system_error when the system gives no pipe or process; what `receive` throws, when the child
 /// has ended.

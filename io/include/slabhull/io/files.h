@@ -4,6 +4,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/io/csv_table.h"
+#include "slabhull/io/read_options.h"
 #include "slabhull/io/soup.h"
 
 #include <filesystem>
@@ -28,15 +29,17 @@ public:
 };
 
 /// MSH 2.2 and 4.1, ASCII and binary, in either byte order. Points and straight lines, triangles and
-/// tetrahedra; other elements are refused by name. Parameters of nodes are passed over, and so are
-/// partitions: of a partitioned mesh come the elements of the model, each once, with the model's entities.
-/// Groups: those with a name and those in use. An element of an entity in several groups gets the first; one
-/// that MSH 2.2 repeats for each of its groups stays repeated. Data: `$NodeData` that give each node a value
-/// and `$ElementData` that give one to each simplex of the top dimension become arrays of doubles; other
-/// sections are passed over.
+/// tetrahedra; other elements are refused by name (curved simplices unless ReadOptions::linear). Parameters
+/// of nodes are passed over, and so are partitions: of a partitioned mesh come the elements of the model,
+/// each once, with the model's entities. Groups: those with a name and those in use. An element of an entity
+/// in several groups gets the first, with a remark; one that MSH 2.2 repeats for each of its groups stays
+/// repeated. Data: `$NodeData` that give each node a value and `$ElementData` that give one to each simplex
+/// of the top dimension become arrays of doubles; other sections are passed over.
 Soup read_msh(const std::filesystem::path& path);
-/// VTU of lines only, triangles only or tetrahedra only, in either byte order; arrays inline or appended,
-/// ASCII, base64 or raw, as they are or packed by zlib or LZ4. Pieces, which must have the same arrays, are
+/// VTU of vertices, lines, triangles and tetrahedra, in either byte order; arrays inline or appended, ASCII,
+/// base64 or raw, as they are or packed by zlib or LZ4. Where cells are of several dimensions, each keeps its
+/// number in the file as its tag, cell data are those of the largest dimension, and an array of integers says
+/// the groups (ReadOptions::patch_array). Pieces, which must have the same arrays, are
 /// joined one behind the other; points that they share stay apart. Integers become int64, reals double, text
 /// arrays strings.
 Soup read_vtu(const std::filesystem::path& path);
@@ -47,7 +50,7 @@ Soup read_vtu(const std::filesystem::path& path);
 Soup read_pvtu(const std::filesystem::path& path);
 /// VTK legacy (.vtk), versions 1 to 5.1, ASCII and binary: an unstructured grid of vertices, lines, triangles
 /// and tetrahedra, mixed or not, or POLYDATA of vertices, lines of two points and triangles. Where they are
-/// mixed, each simplex keeps its number in the file as its tag. Arrays as in read_vtu(); colours are passed
+/// mixed, as read_vtu() has it. Arrays as in read_vtu(); colours are passed
 /// over, and bit arrays refused. `vtkIdType` is taken as 32 bits, as VTK writes it, `long` as 64.
 Soup read_vtk(const std::filesystem::path& path);
 /// TetGen's files, which share a stem; numbers from 0 or 1, comments anywhere. A .node or .ele: the points
@@ -68,6 +71,7 @@ Soup read_xdmf(const std::filesystem::path& path);
 bool has_hdf5();
 /// A file of any format of io/formats.h, by extension or else by content.
 Soup read_mesh(const std::filesystem::path& path);
+Soup read_mesh(const std::filesystem::path& path, const ReadOptions& options);
 
 /// Medit .mesh, ASCII, of 2, 3 or 4 dimensions: vertices, edges, triangles, tetrahedra. References become
 /// groups without names; those of vertices, where one is not 0, the point data `medit:ref`. A fourth
@@ -83,15 +87,21 @@ Soup read_avro(const std::filesystem::path& path);
 /// become groups without names.
 Soup read_mfem(const std::filesystem::path& path);
 
-/// A surface of triangles from STL, OFF, OBJ or PLY, by extension; faces as they come, however they meet.
-/// Polygons are refused. Vertices of an STL, which has no other notion of connectivity, are in single
-/// precision and welded where equal; facets that collapse by it are left out. The others keep double
+/// A surface from STL, OFF, OBJ or PLY, by extension; faces as they come, however they meet. Planar polygons
+/// (to rounding) are cut into triangles, with a remark and, as tags, the file's numbers of the faces from 0;
+/// others are refused. Groups: the solids of an STL; the groups (`g`), else objects (`o`), else materials
+/// (`usemtl`) of an OBJ, the first of which there are several or, where there is one of each, at all; the
+/// values of a PLY's whole-numbered face property `patch`, `group`, `region`, `zone`, `part` or
+/// `material_index`. Vertices of an STL, which has no other notion of connectivity, are in single precision
+/// and welded where equal; facets that collapse by it are left out, with a remark. The others keep double
 /// precision and their numbering.
 Soup read_surface(const std::filesystem::path& path);
 /// The same, whatever the name: `extension` is ".stl", ".off", ".obj" or ".ply".
 Soup read_surface_as(const std::filesystem::path& path, std::string_view extension);
 /// A closed curve: a line "x y" per point, in order; a last point equal to the first is dropped; lines that
-/// start with a letter (airfoil titles) or '#' are skipped. Lines of the soup have dimension 1.
+/// start with a letter (airfoil titles) or '#' are skipped. An airfoil in Lednicer's order (a line with two
+/// counts, then the upper and the lower side, both from the leading edge on) becomes one curve, with a
+/// remark. Lines of the soup have dimension 1.
 Soup read_curve(const std::filesystem::path& path);
 
 /// Numbers in columns with names. The first line that is not blank names them, perhaps behind a '#'; then a

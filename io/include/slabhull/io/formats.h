@@ -58,9 +58,26 @@ struct WriteVariants {
     bool pieces_default_only = false; ///< pieces only in the default encoding and version
 };
 
+/// Reads a file, with options where the format has some.
+class FormatReader {
+public:
+    using Plain = Soup (*)(const std::filesystem::path& path);
+    using WithOptions = Soup (*)(const std::filesystem::path& path, const ReadOptions& options);
+    FormatReader() = default;
+    FormatReader(Plain plain, WithOptions with_options = nullptr)
+        : plain_{plain}, with_options_{with_options} {}
+
+    Soup operator()(const std::filesystem::path& path, const ReadOptions& options = {}) const {
+        return with_options_ != nullptr ? with_options_(path, options) : plain_(path);
+    }
+
+private:
+    Plain plain_ = nullptr;
+    WithOptions with_options_ = nullptr;
+};
+
 /// A file format: its names, its reader and its writer.
 struct Format {
-    using Read = Soup (*)(const std::filesystem::path& path);
     /// Opens the file, and the files that belong to it, for the caller to commit.
     using Write = void (*)(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                            const WriteOptions& options);
@@ -69,7 +86,7 @@ struct Format {
     std::string_view title;                   ///< as messages call it: "MSH"
     std::vector<std::string_view> extensions; ///< in lower case, with the dot
     std::vector<std::string_view> signatures; ///< one of them starts a file; <this stands soon after
-    Read read = nullptr;                      ///< throws FormatLeftOut unless `built`
+    FormatReader read{};                      ///< throws FormatLeftOut unless `built`
     Write write = nullptr;                    ///< throws FormatLeftOut unless `built`
     FormatFeatures features{};
     WriteVariants variants{};

@@ -44,6 +44,9 @@ struct Soup {
     std::vector<DataArray> point_data;
     std::vector<DataArray> cell_data; ///< rows go with the simplices of top_dimension()
     std::vector<DataArray> field_data;
+    /// What the reader did beyond taking the file as it is, or passed over; for a user to read, with the
+    /// path.
+    std::vector<std::string> remarks;
 
     std::int64_t point_tag(std::size_t i) const {
         return point_tags.empty() ? static_cast<std::int64_t>(i) : point_tags[i];

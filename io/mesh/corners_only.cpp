@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/mesh/corners_only.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace slabhull::io {
+
+namespace {
+
+/// Keeps the rows that have a number, in their order.
+template<class Values>
+void keep_numbered(Values& values, const Array<Index>& number, std::size_t width) {
+    std::size_t kept = 0;
+    for (std::size_t row = 0; row < number.size(); ++row) {
+        for (std::size_t k = 0; number[row] != no_index && k < width; ++k) {
+            values[kept++] = values[row * width + k];
+        }
+    }
+    values.resize(kept);
+}
+
+void renumber(Soup& soup, const Array<Index>& number) {
+    if (soup.point_tags.empty()) {
+        soup.point_tags.resize(soup.points.size());
+        std::iota(soup.point_tags.begin(), soup.point_tags.end(), std::int64_t{0});
+    }
+    keep_numbered(soup.points, number, 1);
+    keep_numbered(soup.point_tags, number, 1);
+    for (DataArray& array : soup.point_data) {
+        std::visit(
+            [&](auto& values) { keep_numbered(values, number, static_cast<std::size_t>(array.components)); },
+            array.values);
+    }
+    for (SimplexBlock& block : soup.simplices) {
+        std::transform(block.vertices.begin(), block.vertices.end(), block.vertices.begin(),
+                       [&](Index vertex) { return number[vertex]; });
+    }
+}
+
+} // namespace
+
+void CornersOnly::finish(Soup& soup) const {
+    if (cells_ == 0) {
+        return;
+    }
+    Array<Index> number(soup.points.size());
+    std::fill(number.begin(), number.end(), Index{0});
+    for (std::size_t v = 0; v < between_.size(); ++v) {
+        number[v] = between_[v] != 0 ? no_index : 0;
+    }
+    for (const SimplexBlock& block : soup.simplices) { // a corner of one may lie on another's side
+        for (const Index vertex : block.vertices) {
+            number[vertex] = 0;
+        }
+    }
+    Index next = 0;
+    for (Index& each : number) {
+        each = each == no_index ? no_index : next++;
+    }
+    soup.remarks.push_back(
+        fmt::format("{}: {} curved elements: their corners are taken, {} points between them "
+                    "left out",
+                    soup.path, cells_, soup.points.size() - next));
+    renumber(soup, number);
+}
+
+} // namespace slabhull::io
