@@ -33,8 +33,8 @@ void require_countable(const SizeField<2>& field) {
 
 template<>
 CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
-    require_attainable<2>(surface, options.grading.largest);
     CapMesh<2> mesh = constrained_delaunay(surface);
+    require_attainable<2>(surface, options.grading.largest);
     const std::span<const Point<2>> points{surface.points};
     const SizeField<2> field{points, boundary_spacing<2>(points, surface.facets), options.grading};
     require_countable(field);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/mesh/mixed_cells.h"
 
+#include "io/files/utf8.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/text.h"
 
@@ -52,7 +53,7 @@ std::map<std::int64_t, std::string> names_of_patches(const Soup& soup) {
     const Texts* texts = array == nullptr ? nullptr : std::get_if<Texts>(&array->values);
     for (std::size_t i = 0;
          numbers != nullptr && texts != nullptr && i < std::min(numbers->size(), texts->size()); ++i) {
-        names[(*numbers)[i]] = (*texts)[i];
+        names[(*numbers)[i]] = as_utf8((*texts)[i]);
     }
     return names;
 }

@@ -3,6 +3,7 @@
 #include "slabhull/io/files.h"
 
 #include "io/files/file_cursor.h"
+#include "io/files/utf8.h"
 #include "io/mesh/corners_only.h"
 #include "io/mesh/readers.h"
 #include "io/mesh/tag_index.h"
@@ -115,7 +116,7 @@ private:
             require(dimension >= 0 && dimension <= 3, fmt::format("{} is no dimension", dimension));
             const int number = in_.parsed<int>("a physical group's number");
             require(number > 0, fmt::format("{} is no number of a physical group", number));
-            names_[static_cast<std::size_t>(dimension)][number] = in_.quoted();
+            names_[static_cast<std::size_t>(dimension)][number] = as_utf8(in_.quoted());
         }
     }
 

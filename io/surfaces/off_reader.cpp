@@ -60,6 +60,7 @@ void read_face(TextLine line, SurfaceBuilder& surface, std::vector<Index>& corne
 
 void read_off(FileBytes& file, SurfaceBuilder& surface) {
     FileCursor in{file};
+    pass_byte_order_mark(in);
     TextLine counts = pass_head(in);
     const auto claimed_points = counts.parsed<std::uint64_t>("the count of vertices");
     const auto claimed_faces = counts.parsed<std::uint64_t>("the count of faces");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/surfaces/surface_builder.h"
 
+#include "io/files/utf8.h"
 #include "slabhull/core/text.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ std::string tidy(std::string_view name) {
     constexpr std::string_view blanks = " \t\r\n";
     const std::size_t first = std::min(name.find_first_not_of(blanks), name.size());
     name = name.substr(first, name.find_last_not_of(blanks) + 1 - first);
-    std::string text = readable(name);
+    std::string text = as_utf8(readable(name));
     std::replace(text.begin(), text.end(), '"', '\'');
     return text;
 }

@@ -11,6 +11,15 @@
 
 namespace slabhull::io {
 
+/// Passes the mark that some editors put before UTF-8; to be called at the start of a file.
+inline void pass_byte_order_mark(FileCursor& in) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    if (in.remaining() < mark.size() ||
+        std::string_view{in.take(mark.size(), "a line"), mark.size()} != mark) {
+        in.seek(0);
+    }
+}
+
 /// The words of one line of a file, which the cursor has passed already and does not let go of.
 class TextLine {
 public:

@@ -252,6 +252,16 @@ def by_hand():
         body += np.array([1], dtype=sign + "u4").tobytes() + b"\xfe"
         put("ply", f"all_{order}.ply", head.format(f"binary_{order}_endian 1.0").encode() + body)
     put("curve", "airfoil", "NACA 0012\n# a comment\n1 0\n0.5 0.06\n0 0\n0.5 -0.06\r\n\n1 0\n")
+    put("curve", "lednicer", "AIRFOIL\n 4. 3.\n\n0 0\n0.2 0.1\n0.6 0.1\n1 0.01\n\n0 0\n0.5 -0.1\n1 -0.01\n")
+    put("off", "polygons.off", "OFF 7 3 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 1\n6 0 1 2 3 4 5\n3 0 6 1\n4 1 2 3 4\n")
+    put("ply", "patches.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_index\nproperty int patch\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+        "4 0 1 2 3 5\n3 0 2 1 -1\n")
+    put("vtu", "mixed.vtu", '<VTKFile type="UnstructuredGrid"><UnstructuredGrid><Piece NumberOfPoints="4" NumberOfCells="4"><Points>'
+        '<DataArray type="Float64" NumberOfComponents="3">0 0 0 1 0 0 1 1 0 0 1 0</DataArray></Points><Cells>'
+        '<DataArray type="Int64" Name="connectivity">0 1 3 0 1 2 0 2 3</DataArray>'
+        '<DataArray type="Int64" Name="offsets">2 3 6 9</DataArray><DataArray type="UInt8" Name="types">3 1 5 5</DataArray></Cells>'
+        '<CellData><DataArray type="Int64" Name="patch">4 5 9 -1</DataArray></CellData></Piece></UnstructuredGrid></VTKFile>')
     put("csv", "commas", "time,x,angle_deg\n0,1.5,-90\n2,2.5e-3,45\n")
     put("csv", "semicolons", "time;x;angle_deg\r\n0;1.5;-90\r\n2;2.5e-3;45")
     put("csv", "blanks", "# time x angle_deg\n0 1.5 -90\n2\t2.5e-3  45\n")

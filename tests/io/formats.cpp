@@ -215,7 +215,7 @@ TEST_CASE("Each format has a name of its own and can be found by it and by an ex
         CHECK(names.insert(format.name).second);
         CHECK(io::format_named(format.name) == &format);
         CHECK(format.built);
-        CHECK(format.read != nullptr);
+        CHECK(format.read);
         CHECK(format.write != nullptr);
     }
     CHECK(io::format_of_extension("a/ROOM.MSH") == io::format_named("msh"));

@@ -169,6 +169,11 @@ TEST_CASE("OFF, OBJ and PLY keep every face and every bit of the coordinates", "
     }
 }
 
+TEST_CASE("A byte order mark before the first statement does not hide it", "[io]") {
+    CHECK(surface("a.obj", "\xEF\xBB\xBF" + obj().substr(obj().find("v "))).points.size() == points.size());
+    CHECK(surface("a.off", "\xEF\xBB\xBF" + off()).points.size() == points.size());
+}
+
 TEST_CASE("OBJ numbers that count from the last vertex are understood", "[io]") {
     CHECK(surface("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n").simplices[2].vertices ==
           Array<Index>{0, 1, 2});
@@ -355,6 +360,9 @@ TEST_CASE("Solids, groups, materials and part numbers are groups by their names"
     CHECK(names_of_faces(surface("a.stl", ascii_stl())) ==
           Names{"outer facet of the body", "outer facet of the body", "", "", ""});
     CHECK(names_of_faces(surface("a.stl", binary_stl())).empty());
+    CHECK(names_of_faces(surface(
+              "a.stl", scratch::replaced(ascii_stl(), "outer facet of the body", "k\xF6rper \"1\""))) ==
+          Names{"k\xC3\xB6rper '1'", "k\xC3\xB6rper '1'", "", "", ""});
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
     CHECK(
         names_of_faces(surface("a.obj", vertices + "o body\ng low\nf 1 3 2\ng top side\nusemtl red\nf 1 2 4\n"

@@ -71,6 +71,8 @@ public:
         return with_options_ != nullptr ? with_options_(path, options) : plain_(path);
     }
 
+    explicit operator bool() const { return plain_ != nullptr || with_options_ != nullptr; }
+
 private:
     Plain plain_ = nullptr;
     WithOptions with_options_ = nullptr;
