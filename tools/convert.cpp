@@ -217,7 +217,7 @@ void add_convert(CLI::App& program, int& exit_code) {
     app->add_option("--from", command->from, "Format of IN, whatever its extension");
     app->add_option("--to", command->to, "Format of OUT, whatever its extension");
     app->add_flag("--linear", command->reading.linear,
-                  "Of curved (second-order) simplices in MSH, VTU and VTK, take the corners");
+                  "Of curved (second-order) simplices in MSH, VTU, VTK and XDMF, take the corners");
     app->add_flag("--split-output", command->split,
                   "A file for each region and patch: OUT with _initial, _terminating, _PATCH in its name");
     app->add_option("--encoding", command->writing.encoding,

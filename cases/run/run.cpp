@@ -234,10 +234,23 @@ private:
         journal_->append(initial_.dump());
     }
 
+    /// Given layers may ask for more than was meant: told before minutes go by.
+    void warn_of_size(std::size_t layers) const {
+        constexpr double many = 1e8;
+        const auto facets = march_->state().boundary.facets().size();
+        const double simplices = static_cast<double>(facets) * static_cast<double>(layers) *
+                                 static_cast<double>(simplices_per_prism(case_.split));
+        if (!case_.layers_follow_motion() && simplices > many) {
+            listener_.warning(fmt::format("slab {}: {} facets in {} layers make a side of {:.2g} simplices",
+                                          march_->state().slab, facets, layers, simplices));
+        }
+    }
+
     /// The slab as planned or, if the case wants it, as much of it as is not tangled.
     Slab<D> build(StageClock& clock) {
         const double begin = march_->state().time;
         const double floor = case_.adapt_floor * (case_.end - case_.start) / case_.slabs;
+        warn_of_size(case_.level_times(begin, case_.slab_end(begin)).size() - 1);
         for (double end = case_.slab_end(begin);;) {
             try {
                 return march_->build(case_.level_times(begin, end), clock);

@@ -4,6 +4,7 @@
 
 #include "io/files/byte_order.h"
 #include "io/files/file_cursor.h"
+#include "io/mesh/corners_only.h"
 #include "io/mesh/mixed_cells.h"
 #include "io/mesh/readers.h"
 #include "io/vtk/vtk_names.h"
@@ -88,6 +89,7 @@ public:
         } else {
             settle_mixed_cells(soup_, options_.patch_array);
         }
+        corners_only_.finish(soup_);
         return std::move(soup_);
     }
 
@@ -335,6 +337,8 @@ private:
         }
         if (same_word(type, "Mixed")) {
             read_mixed_cells(node, item);
+        } else if (const auto curved = curved_topology(type)) {
+            read_curved_cells(node, item, *curved);
         } else {
             read_equal_cells(node, item, dimension_named(node, type));
         }
@@ -375,6 +379,53 @@ private:
         if (bad != vertices.end()) {
             refuse_vertex(item.node, static_cast<std::size_t>(bad - vertices.begin()) / corners, *bad);
         }
+    }
+
+    struct Curved {
+        std::size_t dimension;
+        std::size_t nodes; ///< the corners first
+    };
+
+    static std::optional<Curved> curved_topology(std::string_view type) {
+        const auto is = [type](const char* a, const char* b) {
+            return same_word(a, type) || same_word(b, type);
+        };
+        if (is("Edge_3", "Edge3")) {
+            return Curved{1, 3};
+        }
+        if (is("Triangle_6", "Tri_6")) {
+            return Curved{2, 6};
+        }
+        if (is("Tetrahedron_10", "Tet_10")) {
+            return Curved{3, 10};
+        }
+        return std::nullopt;
+    }
+
+    void read_curved_cells(const pugi::xml_node& node, const Item& item, const Curved& curved) {
+        if (!options_.linear) {
+            fail(node, fmt::format("cells {} are of second order; {}", type_of(node, "TopologyType"),
+                                   how_to_take_corners));
+        }
+        if (item.count % curved.nodes != 0) {
+            fail(item.node, fmt::format("a {} has {} points", type_of(node, "TopologyType"), curved.nodes));
+        }
+        cells_ = checked_index(item.count / curved.nodes, "cells");
+        Array<std::int64_t> points(item.count);
+        take(item, points.data(), curved.nodes, curved.nodes);
+        Array<Index>& vertices = soup_.simplices[curved.dimension].vertices;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (points[i] < 0 || std::cmp_greater_equal(points[i], soup_.points.size())) {
+                refuse_vertex(item.node, i / curved.nodes, points[i]);
+            }
+            const auto point = static_cast<Index>(points[i]);
+            if (i % curved.nodes <= curved.dimension) {
+                vertices.push_back(point);
+            } else {
+                corners_only_.add_between(point, soup_.points.size());
+            }
+        }
+        corners_only_.add_cells(cells_);
     }
 
     [[noreturn]] void refuse_vertex(const pugi::xml_node& node, std::size_t cell, std::int64_t vertex) const {
@@ -507,6 +558,7 @@ private:
     }
 
     const ReadOptions& options_;
+    CornersOnly corners_only_;
     std::filesystem::path folder_;
     pugi::xml_document document_;
     std::map<std::string, Hdf5Reader> readers_;

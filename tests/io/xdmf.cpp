@@ -379,3 +379,21 @@ TEST_CASE("XDMF or its HDF5 file damaged or cut short is refused or read as a co
         }
     }
 }
+
+TEST_CASE("Of second-order cells, the corners are taken where that is asked for", "[io]") {
+    const scratch::Folder folder;
+    const auto path = scratch::put(
+        folder / "a.xdmf",
+        "<Xdmf Version=\"3.0\"><Domain><Grid><Geometry GeometryType=\"XY\"><DataItem Dimensions=\"6 2\">"
+        "0 0 1 0 0 1 .5 0 .5 .5 0 .5</DataItem></Geometry><Topology TopologyType=\"Triangle_6\" "
+        "NumberOfElements=\"1\"><DataItem DataType=\"Int\" Dimensions=\"1 6\">0 1 2 3 4 "
+        "5</DataItem></Topology>"
+        "</Grid></Domain></Xdmf>");
+    CHECK_THAT(scratch::refusal([](const auto& file) { return io::read_xdmf(file); }, path),
+               Catch::Contains("second order") && Catch::Contains("linear"));
+    const io::Soup soup = io::read_mesh(path, {true, ""});
+    CHECK(soup.points == Array<Point<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    CHECK(soup.simplices[2].vertices == Array<Index>{0, 1, 2});
+    REQUIRE(soup.remarks.size() == 1);
+    CHECK_THAT(soup.remarks[0], Catch::Contains("1 curved elements"));
+}
