@@ -8,6 +8,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/slab/slab.h"
+#include "slabhull/slab/sound_hull.h"
 #include "slabhull/study/exact_measures.h"
 
 #include <algorithm>
@@ -87,12 +88,8 @@ StudyRow study(const Case& the_case, const std::optional<std::filesystem::path>&
     row.boundary_facets = boundary.facet_count();
     row.centres = slab.hull.side_points - boundary.vertex_count() * (row.layers - 1);
 
-    const HullReport report = check_hull<D>(slab.hull);
-    clock.book("checking");
-    if (!report.clean()) {
-        throw GeometryError(fmt::format("the hull of {}, level {}, has {} defects:\n{}", row.experiment,
-                                        row.level, report.total(), findings_as_text(report)));
-    }
+    const std::string name = fmt::format("the hull of {}, level {},", row.experiment, row.level);
+    const HullReport report = require_sound_hull<D>(slab.hull, name, the_case.check_embedding, clock).report;
     row.counts = {report.counts.cells, report.counts.vertices};
     row.cells_by_region = report.cells_by_region;
     add_measures(row, report);

@@ -25,7 +25,8 @@ struct CheckCommand {
     bool json = false;
     bool betti = false; ///< neither this nor the next: as far as it is practical
     bool no_betti = false;
-    bool embedding = false;
+    bool embedding = false; ///< even of torn hulls
+    bool no_embedding = false;
     int threads = 0;
 };
 
@@ -115,8 +116,10 @@ int check_soup(const CheckCommand& command, io::Soup& soup, bool hull) {
         const HullColumns<D> columns = arrays.columns();
         HullReport report = check_hull<D>(columns, options);
         std::optional<EmbeddingSummary> embedding;
-        if (command.embedding) {
-            embedding = check_embedding<D>(columns, options, report);
+        if (!command.no_embedding) {
+            embedding = check_embedding<D>(columns, options, report, command.embedding);
+        } else {
+            report.skipped.push_back("embedding: left out, as asked (--no-embedding)");
         }
         return tell(command, report, embedding);
     }
@@ -149,8 +152,13 @@ void add_check(CLI::App& program, int& exit_code) {
         fmt::format("Betti numbers, the slowest part, of any hull; else of those up to {} cells",
                     practical_betti_cells));
     app->add_flag("--no-betti", command->no_betti, "No Betti numbers")->excludes(betti);
-    app->add_flag("--embedding", command->embedding,
-                  "For a hull: whether it crosses itself, in space or in time between its levels");
+    CLI::Option* embedding = app->add_flag("--embedding", command->embedding,
+                                           "For a hull with facets at fault, too: whether it crosses itself, "
+                                           "pair of cells by pair; all others are "
+                                           "proven not to without this");
+    app->add_flag("--no-embedding", command->no_embedding,
+                  "No proof that a hull does not cross itself, in space or in time between its levels")
+        ->excludes(embedding);
     app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")
         ->check(CLI::Range(0, 1024));
     app->footer(

@@ -37,6 +37,7 @@ public:
         read_side();
         read_cap();
         read_output();
+        read_check();
         root_.require_all_known();
         return std::move(case_);
     }
@@ -310,6 +311,14 @@ private:
         if (!(case_.cap_reuse_angle >= 0 && case_.cap_reuse_angle <= 60)) {
             table.fail("reuse_angle", "an angle from 0 to 60 degrees");
         }
+    }
+
+    void read_check() {
+        KeyTable table = root_.optional_table("check");
+        if (table.has("embedding")) {
+            case_.check_embedding = table.boolean("embedding");
+        }
+        table.require_all_known();
     }
 
     void read_output() {

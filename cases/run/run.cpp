@@ -12,8 +12,8 @@
 #include "slabhull/core/progress.h"
 #include "slabhull/core/version.h"
 #include "slabhull/io/files.h"
-#include "slabhull/slab/check.h"
 #include "slabhull/slab/march.h"
+#include "slabhull/slab/sound_hull.h"
 #include "slabhull/slab/tangling.h"
 
 #include <algorithm>
@@ -100,7 +100,8 @@ Json settings_as_json(const Case& the_case) {
             {"cap_quality", the_case.cap_quality},
             {"cap_reuse", the_case.cap_reuse == CapReuse::move ? "move" : "none"},
             {"cap_reuse_angle", the_case.cap_reuse_angle},
-            {"cap_order", the_case.cap_curve_order ? "curve" : "mesher"}};
+            {"cap_order", the_case.cap_curve_order ? "curve" : "mesher"},
+            {"check_embedding", the_case.check_embedding}};
 }
 
 /// The files of a slab while they are being written. Without commit they vanish.
@@ -127,6 +128,10 @@ class Runner {
 public:
     Runner(const Case& the_case, const RunOptions& options, const Listener& listener)
         : case_{the_case}, listener_{listener} {
+        if (!case_.check_embedding) {
+            listener_.warning("check.embedding is false: nothing proves that the hulls do not cross "
+                              "themselves between levels");
+        }
         io::make_folder(case_.directory);
         io::remove_stale_parts(case_.directory);
         if (!options.resume || !resume()) {
@@ -202,12 +207,8 @@ private:
         warn_of_layers(slab);
         SlabFiles files;
         begin_writing(slab, files); // the disk is slow: it works while the hull is checked
-        const HullReport checked = check_hull<D>(slab.hull);
-        clock.book("checking");
-        if (!checked.clean()) {
-            throw GeometryError(fmt::format("the hull of slab {} has {} defects and was not written:\n{}",
-                                            number, checked.total(), findings_as_text(checked)));
-        }
+        const SoundHull sound = require_sound_hull<D>(slab.hull, fmt::format("the hull of slab {}", number),
+                                                      case_.check_embedding, clock);
         files.written.get();
         if (!journal_) {
             replace_earlier_run();
@@ -218,7 +219,7 @@ private:
         result_.points += slab.hull.points.size();
         ++result_.slabs;
         clock.book("writing");
-        const Json report = report_of(slab, checked, clock);
+        const Json report = report_of(slab, sound, clock);
         march_->accept(std::move(slab));
         journal_->append(report.dump());
         write_checkpoint(
@@ -316,8 +317,9 @@ private:
                 {"seconds", seconds_as_json(clock)}};
     }
 
-    static Json report_of(const Slab<D>& slab, const HullReport& checked, const StageClock& clock) {
-        Json json = as_json(checked);
+    static Json report_of(const Slab<D>& slab, const SoundHull& sound, const StageClock& clock) {
+        Json json = as_json(sound.report);
+        json["embedding"] = sound.embedding ? as_json(*sound.embedding) : Json();
         json["slab"] = slab.hull.slab;
         json["layers"] = as_json(slab.layers, slab.layers_enough);
         json["projection"] = Json::object();

@@ -35,7 +35,14 @@ public:
 
     bool found() {
         constexpr int most_steps = 60;
-        Point<N> h = discriminant();
+        Point<N> h;
+        for (std::size_t k = 0; k < N; ++k) {
+            h[k] = b_.mean[k] - a_.mean[k];
+        }
+        if (in_range(h) && along(h, b_).least - along(h, a_).most > bound(h)) {
+            return true;
+        }
+        h = discriminant();
         for (int step = 0; step < most_steps && in_range(h); ++step) {
             const Span of_a = along(h, a_);
             const Span of_b = along(h, b_);
@@ -48,15 +55,29 @@ public:
     }
 
 private:
+    using Matrix = std::array<std::array<double, N>, N>;
+
+    /// The lower half of the covariance.
+    static void add_spread(const VertexCloud<N>& cloud, Matrix& m) {
+        const double share = 1 / static_cast<double>(cloud.size);
+        for (std::size_t p = 0; p < cloud.size; ++p) {
+            for (std::size_t i = 0; i < N; ++i) {
+                for (std::size_t j = 0; j <= i; ++j) {
+                    m[i][j] +=
+                        share * (cloud.points[p][i] - cloud.mean[i]) * (cloud.points[p][j] - cloud.mean[j]);
+                }
+            }
+        }
+    }
+
     /// (spread of a + spread of b)^-1 (mean of b - mean of a)
     Point<N> discriminant() const {
-        std::array<std::array<double, N>, N> m;
+        Matrix m{};
+        add_spread(a_, m);
+        add_spread(b_, m);
         Point<N> h;
         double trace = 0;
         for (std::size_t i = 0; i < N; ++i) {
-            for (std::size_t j = 0; j <= i; ++j) {
-                m[i][j] = a_.spread[i][j] + b_.spread[i][j];
-            }
             trace += m[i][i];
             h[i] = b_.mean[i] - a_.mean[i];
         }
@@ -148,7 +169,6 @@ void VertexCloud<N>::assign(std::span<const Index> vertices, std::span<const Poi
                             const Point<N>& scale) {
     size = vertices.size();
     mean = {};
-    spread = {};
     in_range = true;
     const double share = 1 / static_cast<double>(size);
     for (std::size_t i = 0; i < size; ++i) {
@@ -156,13 +176,6 @@ void VertexCloud<N>::assign(std::span<const Index> vertices, std::span<const Poi
             points[i][k] = all[vertices[i]][k] * scale[k];
             in_range = in_range && std::abs(points[i][k]) < 1e100;
             mean[k] += share * points[i][k];
-        }
-    }
-    for (std::size_t i = 0; i < size; ++i) {
-        for (std::size_t k = 0; k < N; ++k) {
-            for (std::size_t j = 0; j <= k; ++j) {
-                spread[k][j] += share * (points[i][k] - mean[k]) * (points[i][j] - mean[j]);
-            }
         }
     }
 }

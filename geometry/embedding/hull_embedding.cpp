@@ -187,26 +187,37 @@ private:
         return boxes;
     }
 
+    /// The clouds of some groups, those used last.
+    struct Clouds {
+        static constexpr std::size_t kept = 2 * BoxTree<D + 1>::block;
+        std::array<VertexCloud<D + 1>, kept> clouds;
+        std::array<Index, kept> groups;
+        std::size_t next = 0;
+
+        Clouds() { groups.fill(no_index); }
+        const VertexCloud<D + 1>& of(Index group, const EmbeddingSearch& search) {
+            const auto found = std::find(groups.begin(), groups.end(), group) - groups.begin();
+            if (found < static_cast<std::ptrdiff_t>(kept)) {
+                return clouds[static_cast<std::size_t>(found)];
+            }
+            const std::size_t place = next++ % kept;
+            groups[place] = group;
+            clouds[place].assign(search.groups_.vertices(group), search.points_, search.scale_);
+            return clouds[place];
+        }
+    };
+
     /// Groups that touch are left out: they are in a star.
     void pair_apart() {
         const BoxTree<D + 1> tree{group_boxes()};
         in_rounds(tree.blocks(), [&](std::size_t block, Piece<D>& piece) {
-            VertexCloud<D + 1> a;
-            VertexCloud<D + 1> b;
-            Index of_a = no_index;
-            Index of_b = no_index;
+            Clouds clouds;
             tree.find_pairs(block, [&](Index first, Index second) {
                 if (piece.pairs.crossings.size() > limit_ || touch(first, second)) {
                     return;
                 }
-                if (std::exchange(of_a, first) != first) {
-                    a.assign(groups_.vertices(first), points_, scale_);
-                }
-                if (std::exchange(of_b, second) != second) {
-                    b.assign(groups_.vertices(second), points_, scale_);
-                }
                 ++piece.group_pairs;
-                if (!proven_parted(a, b)) {
+                if (!proven_parted(clouds.of(first, *this), clouds.of(second, *this))) {
                     pair_cells(first, second, piece);
                 }
             });

@@ -76,11 +76,17 @@ HullEmbedding<D> examine(const HullColumns<D>& hull, bool table_confirmed) {
 
 template<int D>
 std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, const CheckOptions& options,
-                                                HullReport& report) {
+                                                HullReport& report, bool torn) {
     Findings findings{report, options};
     if (findings.any({Defect::no_cells, Defect::index_out_of_range, Defect::non_finite_coordinate})) {
         findings.skip("embedding",
                       "there are no cells, or cells and coordinates that geometry does not apply to");
+        return {};
+    }
+    if (!torn && findings.any({Defect::repeated_vertex, Defect::duplicate_cell, Defect::open_facet,
+                               Defect::overfull_facet, Defect::disoriented_facet})) {
+        findings.skip("embedding", "there are facets at fault, so that cells would have to be tested in "
+                                   "pairs, which was not asked for");
         return {};
     }
     const HullEmbedding<D> found = examine(hull, report.table_confirmed);
@@ -103,8 +109,8 @@ std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, cons
 }
 
 template std::optional<EmbeddingSummary> check_embedding<2>(const HullColumns<2>&, const CheckOptions&,
-                                                            HullReport&);
+                                                            HullReport&, bool);
 template std::optional<EmbeddingSummary> check_embedding<3>(const HullColumns<3>&, const CheckOptions&,
-                                                            HullReport&);
+                                                            HullReport&, bool);
 
 } // namespace slabhull

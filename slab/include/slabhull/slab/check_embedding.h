@@ -26,14 +26,15 @@ struct EmbeddingSummary {
 /// on): a self_crossing for each pair of cells, by number,
 /// region or patch, and with the place and time where they meet. Cells without extent are degenerate_cell
 /// there already. Nothing, and a line among the skipped checks, when cells or coordinates are not fit for
-/// geometry.
+/// geometry. The same when facets are not in two cells that agree, unless `torn` hulls are to be examined,
+/// too: that takes all pairs of cells whose boxes meet, minutes where a sound hull takes seconds.
 template<int D>
 std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, const CheckOptions& options,
-                                                HullReport& report);
+                                                HullReport& report, bool torn = true);
 
 extern template std::optional<EmbeddingSummary> check_embedding<2>(const HullColumns<2>&, const CheckOptions&,
-                                                                   HullReport&);
+                                                                   HullReport&, bool);
 extern template std::optional<EmbeddingSummary> check_embedding<3>(const HullColumns<3>&, const CheckOptions&,
-                                                                   HullReport&);
+                                                                   HullReport&, bool);
 
 } // namespace slabhull

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/sound_hull.h"
+
+#include "slabhull/core/error.h"
+
+#include <fmt/format.h>
+
+namespace slabhull {
+
+namespace {
+
+void require_clean(const HullReport& report, const std::string& name) {
+    if (report.clean()) {
+        return;
+    }
+    std::vector<Entity> entities;
+    for (const Finding& finding : report.findings) {
+        entities.insert(entities.end(), finding.entities.begin(), finding.entities.end());
+    }
+    const bool crosses = report.count(Defect::self_crossing) == report.total();
+    const std::string what =
+        crosses ? "crosses itself between two levels" : fmt::format("has {} defects", report.total());
+    const char* advice = crosses ? "Layers that are shorter in time, or another split of the side, may help: "
+                                   "without time.layers and time.spacing, layers follow from the motion\n"
+                                 : "";
+    throw GeometryError{
+        fmt::format("{} {} and was not written:\n{}{}", name, what, findings_as_text(report), advice),
+        entities};
+}
+
+} // namespace
+
+template<int D>
+SoundHull require_sound_hull(const Hull<D>& hull, const std::string& name, bool embedding,
+                             StageClock& clock) {
+    const HullColumns<D> columns = columns_of(hull);
+    SoundHull sound{check_hull<D>(columns), {}};
+    clock.book("checking");
+    require_clean(sound.report, name);
+    if (embedding) {
+        sound.embedding = check_embedding<D>(columns, {}, sound.report);
+        clock.book("embedding");
+        require_clean(sound.report, name);
+    }
+    return sound;
+}
+
+template SoundHull require_sound_hull<2>(const Hull<2>&, const std::string&, bool, StageClock&);
+template SoundHull require_sound_hull<3>(const Hull<3>&, const std::string&, bool, StageClock&);
+
+} // namespace slabhull
