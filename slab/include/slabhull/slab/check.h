@@ -74,9 +74,16 @@ enum class Defect {
     // Spatial meshes only
     folded_facet,            ///< two cells of the same sign on the same side of their common facet
     singular_boundary_ridge, ///< boundary facets meeting there are not two (D = 3: an edge, D = 2: a vertex)
-    singular_boundary_vertex ///< boundary facets at the vertex are not one fan (D = 3)
+    singular_boundary_vertex, ///< boundary facets at the vertex are not one fan (D = 3)
+    // Fillings only: see check_filling.h
+    hull_facet_lost,     ///< no simplex of the filling has this facet of the hull
+    hull_facet_added,    ///< a facet in one simplex only that is none of the hull's
+    hull_facet_reversed, ///< the facet is the hull's, with the other orientation
+    hull_vertex_moved,   ///< a vertex of the hull is elsewhere in the filling
+    wrong_attribute,     ///< of a facet: not that of its region and patch in the hull
+    volume_mismatch      ///< the simplices' volume is not the measure that their boundary encloses
 };
-inline constexpr std::size_t defect_kinds = static_cast<std::size_t>(Defect::singular_boundary_vertex) + 1;
+inline constexpr std::size_t defect_kinds = static_cast<std::size_t>(Defect::volume_mismatch) + 1;
 
 /// Such as "open-facet".
 std::string_view defect_name(Defect what);
