@@ -55,7 +55,7 @@ enum class Defect {
     flat_side_cell, ///< a side cell within one instant
     // Boundary and tracks
     untracked_boundary,      ///< a vertex where a cap meets the side has no track
-    stray_track,             ///< a vertex inside a cap has a track
+    stray_track,             ///< a vertex inside a cap is on a track of the boundary
     track_repeats_time,      ///< two vertices of a track at one time
     track_incomplete,        ///< a track does not lead from the slab's start to its end
     boundary_facet_lost,     ///< the terminating cap lacks the image of a facet of the initial cap's boundary
