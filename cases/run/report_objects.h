@@ -3,6 +3,7 @@
 #pragma once
 
 #include "slabhull/slab/check.h"
+#include "slabhull/slab/check_filling.h"
 #include "slabhull/slab/check_embedding.h"
 #include "slabhull/slab/slice.h"
 
@@ -12,6 +13,7 @@ namespace slabhull {
 
 nlohmann::ordered_json as_json(const HullReport& report);
 nlohmann::ordered_json as_json(const MeshReport& report);
+nlohmann::ordered_json as_json(const FillingReport& report);
 nlohmann::ordered_json as_json(const SectionReport& report, const PatchList& patches);
 nlohmann::ordered_json as_json(const EmbeddingSummary& summary);
 

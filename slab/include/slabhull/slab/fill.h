@@ -2,6 +2,7 @@
 // Filling a hull with simplices, so that a solver can run on the slab.
 #pragma once
 
+#include "slabhull/slab/check.h"
 #include "slabhull/slab/stage_clock.h"
 #include "slabhull/topology/filling.h"
 #include "slabhull/topology/hull.h"
@@ -25,6 +26,15 @@ Filling<D> fill_slab(const Hull<D>& hull, StageClock& clock);
 template<int D>
 Filling<D> fill_slab(const Hull<D>& hull);
 
+/// A hull from the columns of a file: what `build` writes, cells and points in the order of Hull<D>.
+/// Needs: columns whose check_hull() is clean. Throws GeometryError for tracks that are not given and for
+/// another order of the cells or points (as renumbering leaves it), naming the first cell or vertex out of
+/// it.
+template<int D>
+Hull<D> hull_of_columns(const HullColumns<D>& columns);
+
+extern template Hull<2> hull_of_columns<2>(const HullColumns<2>&);
+extern template Hull<3> hull_of_columns<3>(const HullColumns<3>&);
 extern template Filling<2> fill_slab<2>(const Hull<2>&, StageClock&);
 extern template Filling<3> fill_slab<3>(const Hull<3>&, StageClock&);
 extern template Filling<2> fill_slab<2>(const Hull<2>&);
