@@ -8,6 +8,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/slab/fill.h"
+#include "slabhull/slab/filling_quality.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -48,12 +49,15 @@ Hull<D> read_hull(const FillCommand& command, io::Soup& soup) {
 }
 
 template<int D>
-void tell(const FillCommand& command, const Filling<D>& filling, const FillingReport& report,
-          const StageClock& clock) {
+void tell(const FillCommand& command, const Filling<D>& filling, std::size_t layers,
+          const FillingReport& report, const StageClock& clock) {
     if (command.json) {
         nlohmann::ordered_json json{{"file", command.out}};
         json.update(nlohmann::ordered_json::parse(report_as_json(report)));
+        const FillingQuality quality = filling_quality(filling, layers);
         json["steiner_points"] = filling.steiner_points;
+        json["mean_ratio"] = {quality.smallest, quality.one_per_cent, quality.median};
+        json["time_scale"] = quality.time_scale;
         for (const auto& [stage, seconds] : clock.stages()) {
             json["seconds"][stage] = seconds;
         }
@@ -82,7 +86,7 @@ int fill_file(const FillCommand& command, io::Soup& soup) {
     write_filling<D>(files, command.out, filling, format, command.file);
     files.commit();
     clock.book("writing");
-    tell<D>(command, filling, report, clock);
+    tell<D>(command, filling, hull.layers, report, clock);
     return 0;
 }
 

@@ -120,6 +120,24 @@ nlohmann::ordered_json as_json(const FillingReport& report) {
     return json;
 }
 
+template<int D>
+nlohmann::ordered_json as_json(const FillingReport& report, const Filling<D>& filling,
+                               const FillingQuality& quality, double seconds) {
+    return {{"cells", report.cells},
+            {"points", report.vertices},
+            {"steiner_points", filling.steiner_points},
+            {"volume", report.volume},
+            {"smallest_volume", report.smallest_volume},
+            {"mean_ratio", {quality.smallest, quality.one_per_cent, quality.median}},
+            {"time_scale", quality.time_scale},
+            {"seconds", seconds}};
+}
+
+template nlohmann::ordered_json as_json<2>(const FillingReport&, const Filling<2>&, const FillingQuality&,
+                                           double);
+template nlohmann::ordered_json as_json<3>(const FillingReport&, const Filling<3>&, const FillingQuality&,
+                                           double);
+
 nlohmann::ordered_json as_json(const SectionReport& report, const PatchList& patches) {
     Json by_patch = Json::array();
     for (const PatchMeasure& patch : report.patches) {

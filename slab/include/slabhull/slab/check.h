@@ -72,8 +72,8 @@ enum class Defect {
     wrong_neighbor,
     wrong_vertex_cell, ///< the cell claimed to use a vertex does not
     // Spatial meshes only
-    folded_facet,            ///< two cells of the same sign on the same side of their common facet
-    singular_boundary_ridge, ///< boundary facets meeting there are not two (D = 3: an edge, D = 2: a vertex)
+    folded_facet,             ///< two cells of the same sign on the same side of their common facet
+    singular_boundary_ridge,  ///< boundary facets meeting there are not two (D = 3: an edge, D = 2: a vertex)
     singular_boundary_vertex, ///< boundary facets at the vertex are not one fan (D = 3)
     // Fillings only: see check_filling.h
     hull_facet_lost,     ///< no simplex of the filling has this facet of the hull
