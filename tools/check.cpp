@@ -2,11 +2,13 @@
 #include "commands.h"
 
 #include "mesh_formats.h"
+#include "slabhull/cases/filling_files.h"
 #include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/report.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/slab/check_embedding.h"
+#include "slabhull/slab/fill.h"
 #include "slabhull/topology/homology.h"
 
 #include <fmt/format.h>
@@ -27,6 +29,7 @@ struct CheckCommand {
     bool no_betti = false;
     bool embedding = false; ///< even of torn hulls
     bool no_embedding = false;
+    std::string hull; ///< of the filling
     int threads = 0;
 };
 
@@ -62,6 +65,20 @@ void print_report(const std::string& file, const MeshReport& report) {
                report.boundary_facets, report.components, report.components == 1 ? "" : "s");
     fmt::print("  measure {:.10g}, dihedral angles {:.1f} to {:.1f} degrees\n", report.measure,
                report.angles.smallest, report.angles.largest);
+}
+
+void print_report(const std::string& file, const FillingReport& report) {
+    fmt::print("{}: filling of a slab in {}D+t, t = {} to {}\n", file, report.dimension, report.time[0],
+               report.time[1]);
+    fmt::print("  {} vertices, {} cells, {} boundary facets", report.vertices, report.cells,
+               report.boundary_facets);
+    for (const auto& [attribute, facets] : report.facets_by_attribute) {
+        fmt::print("{}{} of attribute {}",
+                   attribute == report.facets_by_attribute.begin()->first ? " (" : ", ", facets, attribute);
+    }
+    fmt::print("{}\n  volume {:.15g}, the boundary encloses {:.15g}; smallest cell {:.3g}\n",
+               report.facets_by_attribute.empty() ? "" : ")", report.volume, report.enclosed,
+               report.smallest_volume);
 }
 
 void print_summary(const EmbeddingSummary& embedding) {
@@ -131,8 +148,50 @@ int check_soup(const CheckCommand& command, io::Soup& soup, bool hull) {
     return tell(command, check_mesh<D>(mesh.points, mesh.cells, options));
 }
 
+/// The hull of a file, in the order that fillings need.
+template<int D>
+Hull<D> read_hull(const CheckCommand& command) {
+    io::Soup soup = read_named(command.hull, "");
+    const MeshKind kind = kind_of(soup);
+    if (kind.dimension != D || !kind.hull) {
+        throw UsageError{fmt::format("--hull: {} is no hull in {}D+t", command.hull, D)};
+    }
+    const HullArrays<D> arrays = hull_of_soup<D>(soup);
+    return hull_of_columns<D>(arrays.columns());
+}
+
+template<int D>
+int check_filling_file(const CheckCommand& command, const FillingArrays<D>& filling) {
+    std::optional<Hull<D>> hull;
+    if (!command.hull.empty()) {
+        hull = read_hull<D>(command);
+    }
+    return tell(command, check_filling<D>(filling.columns(), hull ? &*hull : nullptr));
+}
+
+/// A file that is a filling, or must be one since a hull is given to compare with; nothing for others.
+std::optional<int> check_as_filling(const CheckCommand& command) {
+    if (io::is_space_time_file(command.file)) {
+        io::SpaceTimeSoup soup = io::read_space_time(command.file);
+        return soup.dimension == 3 ? check_filling_file<2>(command, filling_of_soup<2>(soup))
+                                   : check_filling_file<3>(command, filling_of_soup<3>(soup));
+    }
+    if (command.hull.empty()) {
+        return std::nullopt;
+    }
+    const io::Soup soup = read_named(command.file, command.from); // tetrahedra of points (x, y, t)
+    const MeshArrays<3> mesh = mesh_of_soup<3>(soup);
+    FillingArrays<2> filling;
+    filling.points = mesh.points;
+    filling.cells = mesh.cells;
+    return check_filling_file<2>(command, filling);
+}
+
 int check(const CheckCommand& command) {
     set_thread_count(command.threads);
+    if (const std::optional<int> exit_code = check_as_filling(command)) {
+        return *exit_code;
+    }
     io::Soup soup = read_named(command.file, command.from);
     const MeshKind kind = kind_of(soup);
     return kind.dimension == 2 ? check_soup<2>(command, soup, kind.hull)
@@ -159,6 +218,7 @@ void add_check(CLI::App& program, int& exit_code) {
     app->add_flag("--no-embedding", command->no_embedding,
                   "No proof that a hull does not cross itself, in space or in time between its levels")
         ->excludes(embedding);
+    app->add_option("--hull", command->hull, "FILE fills the hull of this file: compare them");
     app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")
         ->check(CLI::Range(0, 1024));
     app->footer(

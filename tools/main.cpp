@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
     slabhull::tools::add_build(program, exit_code);
     slabhull::tools::add_check(program, exit_code);
     slabhull::tools::add_convert(program, exit_code);
+    slabhull::tools::add_fill(program, exit_code);
     slabhull::tools::add_info(program, exit_code);
     slabhull::tools::add_slice(program, exit_code);
     slabhull::tools::add_study(program, exit_code);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/cases/case.h"
 
+#include "slabhull/cases/filling_files.h"
+
 #include "slabhull/core/error.h"
 #include "slabhull/io/checksum.h"
 
@@ -36,6 +38,7 @@ public:
         read_trajectory();
         read_side();
         read_cap();
+        read_fill();
         read_output();
         read_check();
         root_.require_all_known();
@@ -319,6 +322,36 @@ private:
             case_.check_embedding = table.boolean("embedding");
         }
         table.require_all_known();
+    }
+
+    void read_fill() {
+        if (!root_.has("fill")) {
+            return;
+        }
+        KeyTable table = root_.table("fill");
+        if (case_.cap_reuse != CapReuse::move) {
+            root_.fail("fill",
+                       "[cap] reuse = \"move\" with it: only caps that are one mesh moved are filled");
+        }
+        FillSpec fill;
+        if (table.has("formats")) {
+            fill.formats.clear();
+            for (const std::string& format : table.texts("formats", -1)) {
+                try {
+                    fill.formats.push_back(filling_format("formats", format, case_.dimension));
+                } catch (const UsageError& error) {
+                    table.fail("formats", error.what());
+                }
+            }
+        }
+        if (table.has("method")) {
+            table.choice<int>("method", {{"march", 0}});
+        }
+        if (table.has("pentatope_code")) {
+            fill.pentatope_code = table.integer("pentatope_code", 6, 8);
+        }
+        table.require_all_known();
+        case_.fill = std::move(fill);
     }
 
     void read_output() {

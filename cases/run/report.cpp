@@ -100,6 +100,44 @@ nlohmann::ordered_json as_json(const MeshReport& report) {
     return json;
 }
 
+nlohmann::ordered_json as_json(const FillingReport& report) {
+    Json by_attribute = Json::object();
+    for (const auto& [attribute, facets] : report.facets_by_attribute) {
+        by_attribute[std::to_string(attribute)] = facets;
+    }
+    Json json{{"kind", "filling"},
+              {"dimension", report.dimension},
+              {"time", report.time},
+              {"counts",
+               {{"vertices", report.vertices},
+                {"cells", report.cells},
+                {"boundary_facets", report.boundary_facets}}},
+              {"facets_by_attribute", by_attribute},
+              {"volume", report.volume},
+              {"enclosed", report.enclosed},
+              {"smallest_volume", report.smallest_volume}};
+    add_result(json, report);
+    return json;
+}
+
+template<int D>
+nlohmann::ordered_json as_json(const FillingReport& report, const Filling<D>& filling,
+                               const FillingQuality& quality, double seconds) {
+    return {{"cells", report.cells},
+            {"points", report.vertices},
+            {"steiner_points", filling.steiner_points},
+            {"volume", report.volume},
+            {"smallest_volume", report.smallest_volume},
+            {"mean_ratio", {quality.smallest, quality.one_per_cent, quality.median}},
+            {"time_scale", quality.time_scale},
+            {"seconds", seconds}};
+}
+
+template nlohmann::ordered_json as_json<2>(const FillingReport&, const Filling<2>&, const FillingQuality&,
+                                           double);
+template nlohmann::ordered_json as_json<3>(const FillingReport&, const Filling<3>&, const FillingQuality&,
+                                           double);
+
 nlohmann::ordered_json as_json(const SectionReport& report, const PatchList& patches) {
     Json by_patch = Json::array();
     for (const PatchMeasure& patch : report.patches) {
@@ -135,6 +173,10 @@ std::string report_as_json(const HullReport& report) {
 }
 
 std::string report_as_json(const MeshReport& report) {
+    return as_json(report).dump();
+}
+
+std::string report_as_json(const FillingReport& report) {
     return as_json(report).dump();
 }
 

@@ -4,6 +4,7 @@
 #include "cases/run/journal.h"
 #include "cases/run/report_objects.h"
 #include "slabhull/cases/checkpoint.h"
+#include "slabhull/cases/filling_files.h"
 #include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/initial.h"
 #include "slabhull/cases/settings.h"
@@ -12,6 +13,10 @@
 #include "slabhull/core/progress.h"
 #include "slabhull/core/version.h"
 #include "slabhull/io/files.h"
+#include "slabhull/slab/check.h"
+#include "slabhull/slab/check_filling.h"
+#include "slabhull/slab/fill.h"
+#include "slabhull/slab/filling_quality.h"
 #include "slabhull/slab/march.h"
 #include "slabhull/slab/sound_hull.h"
 #include "slabhull/slab/tangling.h"
@@ -205,8 +210,9 @@ private:
         StageClock clock;
         Slab<D> slab = build(clock);
         warn_of_layers(slab);
+        const std::optional<Filled> filled = fill(slab, clock);
         SlabFiles files;
-        begin_writing(slab, files); // the disk is slow: it works while the hull is checked
+        begin_writing(slab, filled, files); // the disk is slow: it works while the hull is checked
         const SoundHull sound = require_sound_hull<D>(slab.hull, fmt::format("the hull of slab {}", number),
                                                       case_.check_embedding, clock);
         files.written.get();
@@ -219,7 +225,10 @@ private:
         result_.points += slab.hull.points.size();
         ++result_.slabs;
         clock.book("writing");
-        const Json report = report_of(slab, sound, clock);
+        Json report = report_of(slab, sound, clock);
+        if (filled) {
+            report["fill"] = filled->report;
+        }
         march_->accept(std::move(slab));
         journal_->append(report.dump());
         write_checkpoint(
@@ -292,9 +301,51 @@ private:
             slab.layers.turn, slab.layers.time, enough));
     }
 
-    void begin_writing(const Slab<D>& slab, SlabFiles& files) {
+    struct Filled {
+        Filling<D> mesh;
+        Json report;
+    };
+
+    /// Nothing where the case wants no filling, or the slab has none since its cap was meshed anew.
+    std::optional<Filled> fill(const Slab<D>& slab, StageClock& clock) const {
+        if (!case_.fill) {
+            return std::nullopt;
+        }
+        if (!slab.cap_moved) {
+            listener_.warning(fmt::format("slab {} is not filled: its terminating cap was meshed anew, since "
+                                          "moving it left angles below cap.reuse_angle",
+                                          slab.hull.slab));
+            return std::nullopt;
+        }
+        const double before = clock.total();
+        Filled filled{fill_slab(slab.hull, clock), {}};
+        const FillingReport checked = check_filling<D>(columns_of(filled.mesh), &slab.hull);
+        clock.book("checking the filling");
+        if (!checked.clean()) {
+            throw GeometryError{fmt::format("the filling of slab {} has {} defects and was not written:\n{}",
+                                            slab.hull.slab, checked.total(), findings_as_text(checked))};
+        }
+        filled.report = as_json(checked, filled.mesh, filling_quality(filled.mesh, slab.hull.layers),
+                                clock.total() - before);
+        return filled;
+    }
+
+    void begin_writing(const Slab<D>& slab, const std::optional<Filled>& filled, SlabFiles& files) {
         files.written = std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred,
-                                   [this, &slab, &files] { write(slab, files); });
+                                   [this, &slab, &filled, &files] {
+                                       write(slab, files);
+                                       if (filled) {
+                                           write(filled->mesh, files);
+                                       }
+                                   });
+    }
+
+    void write(const Filling<D>& filling, SlabFiles& files) const {
+        for (const std::string& format : case_.fill->formats) {
+            write_filling(files.open, path_of(fmt::format("fill_{:04}.{}", filling.slab, format)), filling,
+                          format, {case_.fill->pentatope_code});
+        }
+        files.open.finish();
     }
 
     void write(const Slab<D>& slab, SlabFiles& files) const {

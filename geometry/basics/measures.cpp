@@ -252,8 +252,11 @@ double signed_measure(const std::array<Point<D>, D + 1>& corners) {
         const auto v = minus(corners[2], corners[0]);
         if constexpr (D == 2) {
             return (u[0] * v[1] - u[1] * v[0]) / 2;
-        } else {
+        } else if constexpr (D == 3) {
             return dot(cross(u, v), minus(corners[3], corners[0])) / 6;
+        } else {
+            const auto base = simplex_normal<3>({corners[0], corners[1], corners[2], corners[3]});
+            return dot(base, minus(corners[4], corners[0])) / 4;
         }
     }
 }
@@ -352,6 +355,7 @@ template Point<4> simplex_normal<3>(const std::array<Point<4>, 4>&);
 template double signed_measure<1>(const std::array<Point<1>, 2>&);
 template double signed_measure<2>(const std::array<Point<2>, 3>&);
 template double signed_measure<3>(const std::array<Point<3>, 4>&);
+template double signed_measure<4>(const std::array<Point<4>, 5>&);
 template AngleRange dihedral_angles<2, 2>(const std::array<Point<2>, 3>&);
 template AngleRange dihedral_angles<2, 3>(const std::array<Point<3>, 3>&);
 template AngleRange dihedral_angles<3, 3>(const std::array<Point<3>, 4>&);

@@ -4,7 +4,7 @@
 #include "io/mesh/left_out.h"
 
 #include "io/mesh/readers.h"
-
+#include "io/space_time/h5_reader.h"
 #include "slabhull/io/files.h"
 
 #include <fmt/format.h>
@@ -31,7 +31,13 @@ void write_vtk(AtomicFile&, const MeshColumns&) {
 }
 #endif
 
-#if !SLABHULL_FORMAT_XDMF
+#if !SLABHULL_FORMAT_XDMF // which has our HDF5
+SpaceTimeSoup read_h5(const Path&) {
+    refuse_left_out("HDF5", "xdmf");
+}
+void write_h5(AtomicFile&, const SpaceTimeColumns&) {
+    refuse_left_out("HDF5", "xdmf");
+}
 bool has_hdf5() {
     return false;
 }

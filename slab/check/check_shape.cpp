@@ -245,6 +245,7 @@ void translate(const ManifoldReport& report, std::initializer_list<ManifoldDefec
 
 template bool check_indices<2>(std::span<const Simplex<2>>, std::size_t, Findings&);
 template bool check_indices<3>(std::span<const Simplex<3>>, std::size_t, Findings&);
+template bool check_indices<4>(std::span<const Simplex<4>>, std::size_t, Findings&);
 template bool check_finite<2>(std::span<const Point<2>>, Findings&);
 template bool check_finite<3>(std::span<const Point<3>>, Findings&);
 template bool check_finite<4>(std::span<const Point<4>>, Findings&);

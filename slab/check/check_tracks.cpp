@@ -80,10 +80,12 @@ std::vector<Entity> track_entities(TrackId track, std::span<const Index> vertice
     return entities;
 }
 
-/// `track` is the points of one, by time.
-bool is_whole(std::span<const TrackPoint> track, const std::array<double, 2>& slab) {
+/// `track` is the points of one, by time. One that never is on the side may begin or end in the slab: caps
+/// are meshed anew, and their vertices come and go.
+bool is_whole(std::span<const TrackPoint> track, const std::array<double, 2>& slab, bool inside) {
     const auto same_time = [](const TrackPoint& a, const TrackPoint& b) { return a.time == b.time; };
-    return track.front().time == slab[0] && track.back().time == slab[1] &&
+    const bool leads_through = track.front().time == slab[0] && track.back().time == slab[1];
+    return (inside || leads_through) &&
            std::adjacent_find(track.begin(), track.end(), same_time) == track.end();
 }
 
@@ -99,7 +101,8 @@ void each_track(const std::vector<TrackPoint>& points, const Visit& visit) {
 }
 
 /// `track` is the points of one, by time.
-void report_track(std::span<const TrackPoint> track, const std::array<double, 2>& slab, Findings& findings) {
+void report_track(std::span<const TrackPoint> track, const std::array<double, 2>& slab, bool inside,
+                  Findings& findings) {
     for (std::size_t k = 1; k < track.size(); ++k) {
         if (track[k].time == track[k - 1].time) {
             const std::array<Index, 2> both{track[k - 1].vertex, track[k].vertex};
@@ -107,7 +110,7 @@ void report_track(std::span<const TrackPoint> track, const std::array<double, 2>
                            fmt::format("track {}: two vertices at t = {}", track[k].track, track[k].time));
         }
     }
-    if (track.front().time != slab[0] || track.back().time != slab[1]) {
+    if (!inside && (track.front().time != slab[0] || track.back().time != slab[1])) {
         const std::array<Index, 2> ends{track.front().vertex, track.back().vertex};
         findings.other(Defect::track_incomplete, track_entities(track.front().track, ends, findings),
                        fmt::format("track {}: leads from t = {} to {}, not from {} to {}",
@@ -149,30 +152,48 @@ void report(Defect what, const BoundaryFacet<D>& facet, const char* detail, Find
     findings.vertices(what, facet.vertices, {&facet.cap_cell, 1}, detail);
 }
 
+/// Vertices of the cells for which wanted(cell) holds get `mark`.
+template<int D, class Wanted>
+std::vector<std::uint8_t> mark_vertices(const HullView<D>& view, std::uint8_t mark, const Wanted& wanted) {
+    std::vector<std::uint8_t> use(view.points().size(), 0);
+    parallel_for(view.cells().size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            for (std::size_t i = 0; wanted(c) && i <= D; ++i) {
+                std::atomic_ref{use[view.cells()[c][i]]}.store(mark, std::memory_order_relaxed);
+            }
+        }
+    });
+    return use;
+}
+
+/// Tracks of the vertices where caps meet the side, ascending.
+template<int D>
+std::vector<TrackId> boundary_tracks(const HullView<D>& view, const std::vector<std::uint8_t>& use) {
+    std::vector<TrackId> tracks;
+    each_id(view.track, [&](std::size_t v, TrackId track) {
+        if ((use[v] & on_its_boundary) != 0 && track >= 0) {
+            tracks.push_back(track);
+        }
+    });
+    std::sort(tracks.begin(), tracks.end());
+    return tracks;
+}
+
+/// Vertices inside a cap may have tracks, but not those of its boundary.
 template<int D>
 void check_cap_vertices(const HullView<D>& view, const std::vector<std::uint8_t>& use, Findings& findings) {
+    const std::vector<TrackId> of_boundary = boundary_tracks(view, use);
     each_id(view.track, [&](std::size_t v, TrackId track) {
         const auto vertex = static_cast<Index>(v);
         if ((use[v] & on_its_boundary) != 0 && track < 0) {
             findings.vertex(Defect::untracked_boundary, vertex,
                             "a cap meets the side there, but it has no track");
-        } else if (use[v] == in_a_cap && track >= 0) {
-            findings.vertex(Defect::stray_track, vertex, fmt::format("inside a cap, but on track {}", track));
+        } else if (use[v] == in_a_cap && track >= 0 &&
+                   std::binary_search(of_boundary.begin(), of_boundary.end(), track)) {
+            findings.vertex(Defect::stray_track, vertex,
+                            fmt::format("inside a cap, but on track {} of the boundary", track));
         }
     });
-}
-
-template<int D>
-std::vector<std::uint8_t> mark_cap_vertices(const HullView<D>& view) {
-    std::vector<std::uint8_t> use(view.points().size(), 0);
-    parallel_for(view.cells().size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            for (std::size_t i = 0; view.in_cap(c) && i <= D; ++i) {
-                std::atomic_ref{use[view.cells()[c][i]]}.store(in_a_cap, std::memory_order_relaxed);
-            }
-        }
-    });
-    return use;
 }
 
 /// Cells of caps with neighbours on the side, ascending.
@@ -189,25 +210,33 @@ std::vector<Index> cap_cells_at_side(const HullView<D>& view) {
 
 template<int D>
 void check_tracks(const HullView<D>& view, Findings& findings) {
+    const std::vector<std::uint8_t> on_side =
+        mark_vertices(view, 1, [&](std::size_t c) { return !view.in_cap(c); });
+    const auto inside = [&](std::span<const TrackPoint> track) {
+        return std::none_of(track.begin(), track.end(),
+                            [&](const TrackPoint& p) { return on_side[p.vertex] != 0; });
+    };
     const std::vector<std::array<TrackId, 2>> parts = parts_of_range(view.track);
     std::vector<std::vector<TrackPoint>> faulty(parts.size());
     parallel_for(parts.size(), 1, [&](std::size_t part, std::size_t) {
         each_track(sorted_track_points(view, parts[part]), [&](std::span<const TrackPoint> track) {
-            if (!is_whole(track, view.time)) {
+            if (!is_whole(track, view.time, inside(track))) {
                 faulty[part].insert(faulty[part].end(), track.begin(), track.end());
             }
         });
     });
     for (const std::vector<TrackPoint>& points : faulty) {
-        each_track(points,
-                   [&](std::span<const TrackPoint> track) { report_track(track, view.time, findings); });
+        each_track(points, [&](std::span<const TrackPoint> track) {
+            report_track(track, view.time, inside(track), findings);
+        });
     }
 }
 
 template<int D>
 BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findings) {
     BoundaryFacets<D> boundary;
-    std::vector<std::uint8_t> use = mark_cap_vertices(view);
+    std::vector<std::uint8_t> use =
+        mark_vertices(view, in_a_cap, [&](std::size_t c) { return view.in_cap(c); });
     for (const Index c : cap_cells_at_side(view)) {
         for (std::size_t i = 0; i <= D; ++i) {
             if (view.in_cap(view.adjacency.neighbors[c][i])) {

@@ -59,6 +59,12 @@ constexpr std::array<std::string_view, defect_kinds> defect_names{
     "folded-facet",
     "singular-boundary-ridge",
     "singular-boundary-vertex",
+    "hull-facet-lost",
+    "hull-facet-added",
+    "hull-facet-reversed",
+    "hull-vertex-moved",
+    "wrong-attribute",
+    "volume-mismatch",
 };
 
 std::string list(std::span<const Entity> entities) {

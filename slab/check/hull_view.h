@@ -111,11 +111,11 @@ CellSurvey<D> survey_cells(const HullView<D>& view, double sign = 1);
 // --- check_tracks.cpp
 // ------------------------------------------------------------------------------------------------
 
-/// Each track has one vertex at a time and leads from the slab's start to its end.
+/// Each track has one vertex at a time; one of the side leads from the slab's start to its end.
 template<int D>
 void check_tracks(const HullView<D>& view, Findings& findings);
 
-/// The facets between caps and side; their vertices have tracks, other cap vertices do not.
+/// The facets between caps and side; their vertices have tracks, which other cap vertices have not.
 template<int D>
 BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findings);
 

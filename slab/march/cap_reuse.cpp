@@ -3,6 +3,7 @@
 
 #include "slabhull/geometry/cap_motion.h"
 
+#include <algorithm>
 #include <span>
 
 namespace slabhull {
@@ -10,9 +11,8 @@ namespace slabhull {
 namespace {
 
 /// Numbers of a cap's vertices with the swept ones first; the others keep their order.
-template<int D>
-std::vector<Index> swept_first(const SpatialMesh<D>& cap, std::span<const Index> cap_vertex) {
-    std::vector<Index> number(cap.points.size(), no_index);
+std::vector<Index> swept_first(std::size_t vertices, std::span<const Index> cap_vertex) {
+    std::vector<Index> number(vertices, no_index);
     for (std::size_t v = 0; v < cap_vertex.size(); ++v) {
         number[cap_vertex[v]] = static_cast<Index>(v);
     }
@@ -50,12 +50,39 @@ ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, dou
     ReusedCap<D> reused;
     reused.smallest_angle = moved.sound ? moved.smallest_angle : 0;
     if (reused.smallest_angle >= angle && moved.sound) {
-        reused.mesh =
-            renumbered<D>(initial, moved.points, swept_first(initial, sweep.boundary.mesh_vertices()));
+        reused.mesh = renumbered<D>(initial, moved.points,
+                                    swept_first(initial.points.size(), sweep.boundary.mesh_vertices()));
     }
     return reused;
 }
 
+template<int D>
+Array<TrackId> tracks_throughout(const SpatialMesh<D>& cap) {
+    Array<TrackId> tracks = cap.track_ids;
+    TrackId next = no_track;
+    for (const TrackId track : tracks) {
+        next = std::max(next, track);
+    }
+    for (TrackId& track : tracks) {
+        track = track == no_track ? ++next : track;
+    }
+    return tracks;
+}
+
+template<int D>
+Array<TrackId> tracks_moved(std::span<const TrackId> tracks, const Sweep<D>& sweep) {
+    const std::vector<Index> number = swept_first(tracks.size(), sweep.boundary.mesh_vertices());
+    Array<TrackId> moved(tracks.size());
+    for (std::size_t v = 0; v < tracks.size(); ++v) {
+        moved[number[v]] = tracks[v];
+    }
+    return moved;
+}
+
+template Array<TrackId> tracks_throughout<2>(const SpatialMesh<2>&);
+template Array<TrackId> tracks_throughout<3>(const SpatialMesh<3>&);
+template Array<TrackId> tracks_moved<2>(std::span<const TrackId>, const Sweep<2>&);
+template Array<TrackId> tracks_moved<3>(std::span<const TrackId>, const Sweep<3>&);
 template ReusedCap<2> reuse_cap<2>(const SpatialMesh<2>&, const Sweep<2>&, double);
 template ReusedCap<3> reuse_cap<3>(const SpatialMesh<3>&, const Sweep<3>&, double);
 

@@ -19,4 +19,14 @@ struct ReusedCap {
 template<int D>
 ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle);
 
+/// Tracks for all vertices of a cap that is moved: its own, and new ones for those inside that have none.
+/// These follow its largest; ids, of which a cap that is meshed anew makes its tracks, are larger in any
+/// march.
+template<int D>
+Array<TrackId> tracks_throughout(const SpatialMesh<D>& cap);
+
+/// The tracks of a moved cap, swept vertices first, from those of the initial one.
+template<int D>
+Array<TrackId> tracks_moved(std::span<const TrackId> tracks, const Sweep<D>& sweep);
+
 } // namespace slabhull

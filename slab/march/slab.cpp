@@ -102,6 +102,21 @@ Sweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std:
     return std::move(swept.sweep);
 }
 
+/// Where caps are moved, all their vertices are on tracks, so that a hull alone tells which became which.
+template<int D>
+void track_inside(CapToStitch<D>& initial, const Sweep<D>& sweep, const Slab<D>& slab,
+                  SpatialMesh<D>& terminating) {
+    if (slab.cap_moved) {
+        initial.give_tracks(tracks_throughout(initial.mesh()));
+        terminating.track_ids = tracks_moved<D>(initial.tracks(), sweep);
+        return;
+    }
+    for (std::size_t v = 0; v < terminating.track_ids.size(); ++v) {
+        TrackId& track = terminating.track_ids[v];
+        track = track == no_track ? TrackId{terminating.vertex_ids[v]} : track;
+    }
+}
+
 } // namespace
 
 template<int D>
@@ -119,6 +134,9 @@ Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int numb
     enter_stage("stitching");
     IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
     SpatialMesh<D> terminating = terminating_cap<D>(sweep, std::move(mesh), ids);
+    if (settings.reuse == CapReuse::move) {
+        track_inside<D>(initial, sweep, slab, terminating);
+    }
     slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
     slab.terminating_facets.assign(boundary.facets().begin(), boundary.facets().end());
     slab.hull.slab = number;

@@ -89,7 +89,7 @@ private:
     void name_vertices() {
         const SpatialMesh<D>& initial = initial_.mesh();
         hull_.vertex_ids.append(initial.vertex_ids);
-        hull_.track_ids.append(initial.track_ids);
+        hull_.track_ids.append(initial_.tracks());
         hull_.vertex_ids.append_run(ids_.take(hull_.side_points), hull_.side_points, 1);
         const std::size_t centres =
             (hull_.side_points - (sweep_.layers() - 1) * sweep_.boundary.tracks().size()) / sweep_.layers();

@@ -657,14 +657,31 @@ TEMPLATE_TEST_CASE_SIG("a boundary vertex that has lost its track", "", ((int D)
                   {Defect::untracked_boundary, Defect::track_incomplete}); // the track's rest has no start
 }
 
-TEMPLATE_TEST_CASE_SIG("a track that runs through the inside of both caps", "", ((int D), D), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("vertices inside the caps may have tracks, also ones that end, but each time once", "",
+                       ((int D), D), 2, 3) {
     auto claims = body_claims<D>();
     claims.track_id[inner_vertex(claims, 1)] = 5000;
+    CHECK(check(claims).clean());
     const Index end = inner_vertex(claims, 2);
     claims.track_id[end] = 5000;
+    CHECK(check(claims).clean());
+    Index other = end + 1; // inside the terminating cap, too
+    while (claims.points[other][D] != claims.points[end][D] || claims.track_id[other] >= 0) {
+        ++other;
+    }
+    claims.track_id[other] = 5000;
     const auto report = check(claims);
-    require_found(report, {Defect::stray_track});
-    CHECK(report.count(Defect::stray_track) == 2);
+    require_found(report, {Defect::track_repeats_time});
+    CHECK(report.findings[0].entities[0].number == 5000);
+}
+
+TEMPLATE_TEST_CASE_SIG("a vertex inside a cap on a track of the boundary", "", ((int D), D), 2, 3) {
+    auto claims = body_claims<D>();
+    const Index victim = inner_vertex(claims, 2);
+    claims.track_id[victim] = claims.track_id[boundary_vertex(claims, 1)];
+    const auto report = check(claims);
+    require_found(report, {Defect::stray_track, Defect::track_repeats_time});
+    CHECK(report.count(Defect::stray_track) == 1);
 }
 
 TEMPLATE_TEST_CASE_SIG("two vertices of a track at one time", "", ((int D), D), 2, 3) {

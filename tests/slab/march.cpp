@@ -5,6 +5,8 @@
 #include "slabhull/cases/initial.h"
 #include "slabhull/core/error.h"
 #include "slabhull/slab/check.h"
+#include "slabhull/slab/check_filling.h"
+#include "slabhull/slab/fill.h"
 #include "slabhull/slab/tangling.h"
 
 #include <algorithm>
@@ -179,7 +181,11 @@ TEMPLATE_TEST_CASE_SIG("a moved cap keeps its cells, and is meshed anew when its
     CHECK(anew.moved_angle.value() < 59.9);
     CHECK(check_hull<D>(anew.hull).clean());
     march.settings().reuse = CapReuse::none;
-    CHECK(same_mesh(anew.terminating(), march.propose({0.02, 0.04}).terminating()));
+    SpatialMesh<D> without_move = march.propose({0.02, 0.04}).terminating();
+    const SpatialMesh<D> with_move = anew.terminating();
+    CHECK(without_move.track_ids != with_move.track_ids); // inside, where tracks begin
+    without_move.track_ids = with_move.track_ids;
+    CHECK(same_mesh(with_move, without_move));
 }
 
 TEST_CASE("a cap whose inner vertices come before its boundary's is moved, too", "[march]") {
@@ -314,4 +320,47 @@ TEMPLATE_TEST_CASE_SIG("a march that is stopped in any stage is as before", "", 
     const Slab<D> again = march.propose(times);
     CHECK(again.hull.points == expected.hull.points);
     CHECK(again.hull.cells == expected.hull.cells);
+}
+
+TEMPLATE_TEST_CASE_SIG("slabs of a march that moves its caps are filled, one after the other",
+                       "[march][fill]", ((int D), D), 2, 3) {
+    March<D> march = coarse_march<D>();
+    march.settings().reuse = CapReuse::move;
+    march.settings().reuse_angle = 1;
+    std::map<PersistentId, Point<D + 1>> terminating;
+    for (int k = 0; k < 3; ++k) {
+        const double begin = march.state().time;
+        Slab<D> slab = march.propose({begin, begin + 0.02, begin + 0.04});
+        REQUIRE(slab.cap_moved);
+        REQUIRE(check_hull<D>(columns_of(slab.hull)).clean());
+        const Filling<D> filling = fill_slab(slab.hull);
+        const FillingReport report = check_filling<D>(columns_of(filling), &slab.hull);
+        INFO(findings_as_text(report));
+        CHECK(report.clean());
+        for (std::size_t f = 0; f < slab.hull.initial_cells && k > 0; ++f) {
+            for (const Index v : filling.facets[f]) { // what the slab before ended with
+                REQUIRE(terminating.at(filling.vertex_ids[v]) == filling.points[v]);
+            }
+        }
+        terminating.clear();
+        for (std::size_t v = slab.hull.terminating_points_begin(); v < filling.hull_points; ++v) {
+            terminating[filling.vertex_ids[v]] = filling.points[v];
+        }
+        march.accept(std::move(slab));
+    }
+}
+
+TEST_CASE("a slab whose cap was meshed anew is not filled, and is told so", "[march][fill]") {
+    March<2> march = coarse_march<2>();
+    march.settings().reuse = GENERATE(CapReuse::none, CapReuse::move);
+    march.settings().reuse_angle = 59.9; // more than any mesh has
+    const Slab<2> slab = march.propose({0, 0.1});
+    REQUIRE_FALSE(slab.cap_moved);
+    try {
+        fill_slab(slab.hull);
+        FAIL("filled");
+    } catch (const GeometryError& error) {
+        CHECK_THAT(error.what(), Catch::Contains("meshed anew"));
+        CHECK_FALSE(error.entities.empty());
+    }
 }

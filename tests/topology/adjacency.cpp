@@ -103,6 +103,7 @@ TEST_CASE("in a closed oriented complex, every facet joins two cells and nothing
     require_closed(specimens::sphere<2>());
     require_closed(specimens::torus<2>(5));
     require_closed(specimens::sphere<3>());
+    require_closed(specimens::sphere<4>());
     require_closed(specimens::torus<3>(4));
     require_closed(specimens::projective_space());
     require_closed(specimens::times_circle(specimens::sphere<2>(), 3));
@@ -116,8 +117,10 @@ TEST_CASE("any soup gets the neighbours and defects that a map of all facets giv
         require_like_the_book<2>(random_soup<2>(60, 12, seed), 12);
         require_like_the_book<3>(random_soup<3>(200, 12, seed), 12);
         require_like_the_book<3>(random_soup<3>(900, 50, seed), 50); // several buckets
+        require_like_the_book<4>(random_soup<4>(900, 40, seed), 40);
     }
     require_like_the_book<3>(random_soup<3>(30000, 60, 1), 60); // a bucket too large for hashing
+    require_like_the_book<4>(random_soup<4>(20000, 60, 1), 60);
 }
 
 TEST_CASE("a missing cell leaves its facets open, and only them") {

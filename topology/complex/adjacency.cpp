@@ -21,14 +21,30 @@ constexpr int bucket_bits = 4;
 constexpr std::size_t bucket_size = std::size_t{1} << bucket_bits; // vertices: some 400 half-facets, 6 KiB
 constexpr std::size_t buckets_per_piece = 512;
 
+/// The vertices of a facet but the smallest, ascending, 32 bits each.
+template<int D>
+struct OtherVertices {
+    using Packed = std::uint64_t;
+    static std::uint64_t folded(Packed others) { return others; }
+};
+template<>
+struct OtherVertices<4> { // three do not fit into 64 bits
+    __extension__ typedef unsigned __int128 Packed;
+    static std::uint64_t folded(Packed others) {
+        return static_cast<std::uint64_t>(others) ^
+               static_cast<std::uint64_t>(others >> 64) * 0xD6E8FEB86659FD93u;
+    }
+};
+
 /// One side of a facet: a cell and the facet's place in it.
+template<int D>
 struct HalfFacet {
     enum State : std::uint8_t { alone, joined, at_fault };
-    std::uint64_t others; ///< the facet's vertices but the smallest, ascending, 32 bits each
+    typename OtherVertices<D>::Packed others;
     Index cell;
     std::uint16_t first;   ///< while hashing: the first side met of this facet, which keeps its state
     std::uint8_t smallest; ///< the facet's smallest vertex, counted from the bucket's first
-    std::uint8_t place : 2;
+    std::uint8_t place : 3;
     bool odd : 1; ///< SortedCell::facet_odd
     State state : 2;
 
@@ -36,14 +52,14 @@ struct HalfFacet {
 };
 
 template<int D>
-HalfFacet half_facet(const SortedCell<D>& cell, std::size_t k, Index number) {
+HalfFacet<D> half_facet(const SortedCell<D>& cell, std::size_t k, Index number) {
     const Facet<D> facet = cell.facet(k);
-    std::uint64_t others = 0;
+    typename OtherVertices<D>::Packed others = 0;
     for (std::size_t i = 1; i < D; ++i) {
         others = others << 32 | facet[i];
     }
     const auto smallest = static_cast<std::uint8_t>(facet[0] % bucket_size);
-    return {others, number, 0, smallest, cell.place[k], cell.facet_odd(k), HalfFacet::alone};
+    return {others, number, 0, smallest, cell.place[k], cell.facet_odd(k), HalfFacet<D>::alone};
 }
 
 /// In sorted order, vertex 0 is the smallest of all facets but the one opposite to it, whose smallest is
@@ -67,6 +83,8 @@ CellLists buckets_by_smallest_vertex(std::span<const Simplex<D>> cells, std::siz
 /// Matches the half-facets of one bucket after another; one matcher per thread and piece.
 template<int D>
 class BucketMatcher {
+    using Half = HalfFacet<D>;
+
 public:
     BucketMatcher(std::span<const Simplex<D>> cells, const CellLists& buckets, Adjacency<D>& result)
         : cells_{cells}, buckets_{buckets}, result_{result} {}
@@ -117,31 +135,32 @@ private:
         table_.assign(std::size_t{1} << bits, vacant);
         std::size_t pairs = 0;
         for (std::size_t k = 0; k < halves_.size(); ++k) {
-            HalfFacet& half = halves_[k];
+            Half& half = halves_[k];
             std::uint16_t& slot = slot_of(half, bits);
             if (slot == vacant) {
                 slot = half.first = static_cast<std::uint16_t>(k);
                 continue;
             }
             half.first = slot;
-            HalfFacet& first = halves_[slot];
-            if (first.state == HalfFacet::alone && first.odd != half.odd) {
-                first.state = HalfFacet::joined;
+            Half& first = halves_[slot];
+            if (first.state == Half::alone && first.odd != half.odd) {
+                first.state = Half::joined;
                 ++pairs;
                 join(first, half);
             } else {
-                first.state = HalfFacet::at_fault;
+                first.state = Half::at_fault;
             }
         }
         if (2 * pairs != halves_.size()) {
             std::copy_if(halves_.begin(), halves_.end(), std::back_inserter(faulty_),
-                         [&](const HalfFacet& h) { return halves_[h.first].state != HalfFacet::joined; });
+                         [&](const Half& h) { return halves_[h.first].state != Half::joined; });
         }
     }
 
     /// Where the first side of this facet is, or goes.
-    std::uint16_t& slot_of(const HalfFacet& half, int bits) {
-        const std::uint64_t key = half.others ^ std::uint64_t{half.smallest} << (64 - bucket_bits);
+    std::uint16_t& slot_of(const Half& half, int bits) {
+        const std::uint64_t key = OtherVertices<D>::folded(half.others) ^ std::uint64_t{half.smallest}
+                                                                              << (64 - bucket_bits);
         std::size_t slot = hash_slot(key, bits);
         while (table_[slot] != vacant && !halves_[table_[slot]].same_facet(half)) {
             slot = (slot + 1) & (table_.size() - 1);
@@ -151,14 +170,12 @@ private:
 
     /// The sure way: never quadratic, and finds every defect. Overrules what hashing may have joined.
     void settle_faulty(Index first_vertex) {
-        const auto key = [](const HalfFacet& h) {
-            return std::tuple{h.smallest, h.others, h.cell, +h.place};
-        };
+        const auto key = [](const Half& h) { return std::tuple{h.smallest, h.others, h.cell, +h.place}; };
         std::sort(faulty_.begin(), faulty_.end(),
-                  [&](const HalfFacet& a, const HalfFacet& b) { return key(a) < key(b); });
+                  [&](const Half& a, const Half& b) { return key(a) < key(b); });
         for (auto run = faulty_.begin(); run != faulty_.end();) {
             const auto end =
-                std::find_if(run, faulty_.end(), [&](const HalfFacet& h) { return !h.same_facet(*run); });
+                std::find_if(run, faulty_.end(), [&](const Half& h) { return !h.same_facet(*run); });
             settle(first_vertex + run->smallest, {run, end});
             run = end;
         }
@@ -166,7 +183,7 @@ private:
     }
 
     /// `run` is all sides of one facet.
-    void settle(Index smallest, std::span<const HalfFacet> run) {
+    void settle(Index smallest, std::span<const Half> run) {
         using Kind = typename FacetDefect<D>::Kind;
         if (run.size() == 2) {
             join(run[0], run[1]);
@@ -175,26 +192,25 @@ private:
             }
             return;
         }
-        for (const HalfFacet& half : run) {
+        for (const Half& half : run) {
             result_.neighbors[half.cell][half.place] = no_index;
         }
         report(run.size() == 1 ? Kind::open : Kind::overfull, smallest, run);
     }
 
-    void report(typename FacetDefect<D>::Kind kind, Index smallest, std::span<const HalfFacet> run) {
+    void report(typename FacetDefect<D>::Kind kind, Index smallest, std::span<const Half> run) {
         Facet<D> facet{};
         facet[0] = smallest;
-        std::uint64_t others = run[0].others;
+        auto others = run[0].others;
         for (std::size_t i = D; i-- > 1; others >>= 32) {
             facet[i] = static_cast<Index>(others);
         }
         std::vector<Index> in;
-        std::transform(run.begin(), run.end(), std::back_inserter(in),
-                       [](const HalfFacet& h) { return h.cell; });
+        std::transform(run.begin(), run.end(), std::back_inserter(in), [](const Half& h) { return h.cell; });
         defects.push_back({kind, facet, std::move(in)});
     }
 
-    void join(const HalfFacet& a, const HalfFacet& b) {
+    void join(const Half& a, const Half& b) {
         result_.neighbors[a.cell][a.place] = b.cell;
         result_.neighbors[b.cell][b.place] = a.cell;
     }
@@ -202,8 +218,8 @@ private:
     std::span<const Simplex<D>> cells_;
     const CellLists& buckets_;
     Adjacency<D>& result_;
-    Array<HalfFacet> halves_; // resized without clearing
-    std::vector<HalfFacet> faulty_;
+    Array<Half> halves_; // resized without clearing
+    std::vector<Half> faulty_;
     std::vector<std::uint16_t> table_;
 };
 
@@ -238,5 +254,6 @@ Adjacency<D> build_adjacency(std::span<const Simplex<D>> cells, std::size_t vert
 template Adjacency<1> build_adjacency<1>(std::span<const Simplex<1>>, std::size_t);
 template Adjacency<2> build_adjacency<2>(std::span<const Simplex<2>>, std::size_t);
 template Adjacency<3> build_adjacency<3>(std::span<const Simplex<3>>, std::size_t);
+template Adjacency<4> build_adjacency<4>(std::span<const Simplex<4>>, std::size_t);
 
 } // namespace slabhull

@@ -5,6 +5,7 @@
 #include "slabhull/geometry/displacement_series.h"
 #include "slabhull/geometry/trajectory.h"
 #include "slabhull/io/formats.h"
+#include "slabhull/io/space_time_files.h"
 #include "slabhull/slab/slab.h"
 #include "slabhull/topology/prism_split.h"
 
@@ -105,6 +106,12 @@ struct ProjectionSpec {
     std::filesystem::path file;
 };
 
+/// The table [fill]: slabs are filled with space-time simplices.
+struct FillSpec {
+    std::vector<std::string> formats{"mfem"};
+    int pentatope_code = io::usual_pentatope_code;
+};
+
 /// A case as a case file says it (docs/case-file.md), with everything checked that can be without reading
 /// other files.
 struct Case {
@@ -140,6 +147,7 @@ struct Case {
     double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
 
     bool check_embedding = true; ///< a hull that is not proven to cross itself nowhere is refused
+    std::optional<FillSpec> fill; ///< needs CapReuse::move
 
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};

@@ -3,6 +3,7 @@
 
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/check_embedding.h"
+#include "slabhull/slab/check_filling.h"
 #include "slabhull/slab/slice.h"
 
 #include <string>
@@ -13,6 +14,7 @@ namespace slabhull {
 /// Keys are in docs/formats.md.
 std::string report_as_json(const HullReport& report);
 std::string report_as_json(const MeshReport& report);
+std::string report_as_json(const FillingReport& report);
 
 /// A section as the text of a JSON object: counts, length or area by patch, enclosed measure. `patches` gives
 /// the names.

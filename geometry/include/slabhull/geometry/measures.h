@@ -17,7 +17,7 @@ namespace slabhull {
 template<int D>
 Point<D + 1> simplex_normal(const std::array<Point<D + 1>, D + 1>& corners);
 
-/// Signed measure of a D-simplex in R^D: det[e_1 .. e_D] / D! (D = 1, 2, 3).
+/// Signed measure of a D-simplex in R^D: det[e_1 .. e_D] / D! (D = 1 to 4).
 template<int D>
 double signed_measure(const std::array<Point<D>, D + 1>& corners);
 
@@ -153,6 +153,7 @@ extern template Point<4> simplex_normal<3>(const std::array<Point<4>, 4>&);
 extern template double signed_measure<1>(const std::array<Point<1>, 2>&);
 extern template double signed_measure<2>(const std::array<Point<2>, 3>&);
 extern template double signed_measure<3>(const std::array<Point<3>, 4>&);
+extern template double signed_measure<4>(const std::array<Point<4>, 5>&);
 extern template AngleRange dihedral_angles<2, 2>(const std::array<Point<2>, 3>&);
 extern template AngleRange dihedral_angles<2, 3>(const std::array<Point<3>, 3>&);
 extern template AngleRange dihedral_angles<3, 3>(const std::array<Point<3>, 4>&);

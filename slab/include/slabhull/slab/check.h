@@ -55,7 +55,7 @@ enum class Defect {
     flat_side_cell, ///< a side cell within one instant
     // Boundary and tracks
     untracked_boundary,      ///< a vertex where a cap meets the side has no track
-    stray_track,             ///< a vertex inside a cap has a track
+    stray_track,             ///< a vertex inside a cap is on a track of the boundary
     track_repeats_time,      ///< two vertices of a track at one time
     track_incomplete,        ///< a track does not lead from the slab's start to its end
     boundary_facet_lost,     ///< the terminating cap lacks the image of a facet of the initial cap's boundary
@@ -72,11 +72,18 @@ enum class Defect {
     wrong_neighbor,
     wrong_vertex_cell, ///< the cell claimed to use a vertex does not
     // Spatial meshes only
-    folded_facet,            ///< two cells of the same sign on the same side of their common facet
-    singular_boundary_ridge, ///< boundary facets meeting there are not two (D = 3: an edge, D = 2: a vertex)
-    singular_boundary_vertex ///< boundary facets at the vertex are not one fan (D = 3)
+    folded_facet,             ///< two cells of the same sign on the same side of their common facet
+    singular_boundary_ridge,  ///< boundary facets meeting there are not two (D = 3: an edge, D = 2: a vertex)
+    singular_boundary_vertex, ///< boundary facets at the vertex are not one fan (D = 3)
+    // Fillings only: see check_filling.h
+    hull_facet_lost,     ///< no simplex of the filling has this facet of the hull
+    hull_facet_added,    ///< a facet in one simplex only that is none of the hull's
+    hull_facet_reversed, ///< the facet is the hull's, with the other orientation
+    hull_vertex_moved,   ///< a vertex of the hull is elsewhere in the filling
+    wrong_attribute,     ///< of a facet: not that of its region and patch in the hull
+    volume_mismatch      ///< the simplices' volume is not the measure that their boundary encloses
 };
-inline constexpr std::size_t defect_kinds = static_cast<std::size_t>(Defect::singular_boundary_vertex) + 1;
+inline constexpr std::size_t defect_kinds = static_cast<std::size_t>(Defect::volume_mismatch) + 1;
 
 /// Such as "open-facet".
 std::string_view defect_name(Defect what);

@@ -24,6 +24,14 @@ public:
         stages_.emplace_back(stage, passed);
     }
     const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
+    /// Of all stages, in seconds.
+    double total() const {
+        double sum = 0;
+        for (const auto& stage : stages_) {
+            sum += stage.second;
+        }
+        return sum;
+    }
 
 private:
     Stopwatch watch_;

@@ -7,6 +7,9 @@
 #include "slabhull/topology/prism_split.h"
 #include "slabhull/topology/spatial_mesh.h"
 
+#include <span>
+#include <utility>
+
 namespace slabhull {
 
 /// The persistent id that is given out next; a march holds one.
@@ -43,6 +46,12 @@ public:
     CapToStitch(SpatialMesh<D>&& given_up) : mesh_{given_up}, given_up_{&given_up} {}
 
     const SpatialMesh<D>& mesh() const { return mesh_; }
+    /// Tracks of its vertices in the hull, where they are not the mesh's own.
+    void give_tracks(Array<TrackId> tracks) { tracks_ = std::move(tracks); }
+    std::span<const TrackId> tracks() const {
+        return tracks_.empty() ? std::span<const TrackId>{mesh_.track_ids}
+                               : std::span<const TrackId>{tracks_};
+    }
     /// Empties an array of a cap that is given up.
     template<class T>
     void release(Array<T> SpatialMesh<D>::*array) {
@@ -54,6 +63,7 @@ public:
 private:
     const SpatialMesh<D>& mesh_;
     SpatialMesh<D>* given_up_ = nullptr;
+    Array<TrackId> tracks_;
 };
 
 /// The terminating cap of a stitched hull, with its boundary facets, in the cap's own numbers.

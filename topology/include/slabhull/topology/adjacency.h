@@ -46,7 +46,7 @@ struct AdjacencyView {
     explicit AdjacencyView(std::span<const Neighbors<D>> right) : neighbors{right} {}
 };
 
-/// Adjacency of a soup of simplices, from vertex numbers alone (D = 1, 2, 3).
+/// Adjacency of a soup of simplices, from vertex numbers alone (D = 1 to 4).
 /// Needs: vertices below `vertex_count`, no cell with a repeated vertex (such a cell's facets may pair
 /// wrongly). Cost: near-linear. The result does not depend on the number of threads.
 template<int D>
@@ -55,5 +55,6 @@ Adjacency<D> build_adjacency(std::span<const Simplex<D>> cells, std::size_t vert
 extern template Adjacency<1> build_adjacency<1>(std::span<const Simplex<1>>, std::size_t);
 extern template Adjacency<2> build_adjacency<2>(std::span<const Simplex<2>>, std::size_t);
 extern template Adjacency<3> build_adjacency<3>(std::span<const Simplex<3>>, std::size_t);
+extern template Adjacency<4> build_adjacency<4>(std::span<const Simplex<4>>, std::size_t);
 
 } // namespace slabhull

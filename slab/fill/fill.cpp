@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/fill.h"
+
+#include "slab/fill/cone_cells.h"
+#include "slab/fill/positive_cells.h"
+#include "slab/fill/side_walls.h"
+#include "slab/fill/slab_columns.h"
+#include "slab/fill/staircase.h"
+#include "slabhull/core/error.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/geometry/cap_motion.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace slabhull {
+
+namespace {
+
+constexpr std::size_t cells_per_piece = 1 << 12;
+
+template<int D>
+Point<D> in_space(const Point<D + 1>& point) {
+    Point<D> place;
+    std::copy_n(point.begin(), D, place.begin());
+    return place;
+}
+
+/// Puts the vertices inside the caps where move_cap() moves them on each inner level.
+template<int D>
+void place_inside(const Hull<D>& hull, const SlabColumns<D>& columns, Filling<D>& filling) {
+    if (columns.layers() < 2) {
+        return;
+    }
+    Array<Point<D>> start(hull.initial_points);
+    std::vector<Index> boundary; // vertices of the cap
+    std::vector<Index> column_of(hull.initial_points);
+    for (Index k = 0; k < columns.count; ++k) {
+        start[columns.at(0, k)] = in_space<D>(hull.points[columns.at(0, k)]);
+        column_of[columns.at(0, k)] = k;
+    }
+    for (Index v = 0; v < hull.initial_points; ++v) {
+        if (columns.on_boundary[column_of[v]] != 0) {
+            boundary.push_back(v);
+        }
+    }
+    Array<Simplex<D>> cells(hull.cells.begin(),
+                            hull.cells.begin() + static_cast<std::ptrdiff_t>(hull.initial_cells));
+    for (Simplex<D>& cell : cells) {
+        std::swap(cell[0], cell[1]); // the hull's look back in time
+    }
+    for (std::size_t level = 1; level < columns.layers(); ++level) {
+        std::vector<Point<D>> targets;
+        for (const Index v : boundary) {
+            targets.push_back(in_space<D>(filling.points[columns.at(level, column_of[v])]));
+        }
+        const MovedCap<D> moved = move_cap<D>(start, cells, boundary, targets);
+        for (Index k = 0; k < columns.count; ++k) {
+            if (columns.on_boundary[k] == 0) {
+                Point<D + 1>& point = filling.points[columns.at(level, k)];
+                std::copy_n(moved.points[columns.at(0, k)].begin(), D, point.begin());
+                point[D] = columns.times[level];
+            }
+        }
+    }
+}
+
+/// Makes the cells.
+template<int D>
+class CellMaker {
+public:
+    CellMaker(const SlabColumns<D>& columns, const ConeCells<D>& cones, Filling<D>& filling)
+        : columns_{columns}, cones_{cones}, filling_{filling} {}
+
+    void run() {
+        const std::size_t count = columns_.layers() * cones_.cells_per_layer();
+        checked_index(count, "cells of the filling");
+        filling_.cells.resize(count);
+        filling_.neighbors.resize(count);
+        const std::size_t prisms = columns_.cells.size();
+        parallel_for(columns_.layers() * prisms, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+            PrismCone<D> cone;
+            for (std::size_t k = begin; k < end; ++k) {
+                const std::size_t layer = k / prisms;
+                const auto cell = static_cast<Index>(k % prisms);
+                if (cones_.is_cone(cell)) {
+                    place_cone(layer, cell, cone);
+                } else {
+                    for (std::size_t m = 0; m <= D; ++m) {
+                        place_stair(layer, cell, m);
+                    }
+                }
+            }
+        });
+    }
+
+private:
+    /// Piece m of a staircase.
+    void place_stair(std::size_t layer, Index cell, std::size_t m) {
+        Simplex<D + 1> piece = staircase_piece<D>(columns_, layer, columns_.cells[cell], m);
+        Neighbors<D + 1> across;
+        for (std::size_t i = 0; i <= D + 1; ++i) {
+            if (i == m) {
+                across[i] = m == 0 ? above(layer, cell) : number(layer, cell, m - 1);
+            } else if (i == m + 1) {
+                across[i] = m == D ? below(layer, cell) : number(layer, cell, m + 1);
+            } else {
+                const std::size_t corner = i < m ? i : i - 1;
+                across[i] = across_wall(layer, cell, corner, m < corner ? m : m - 1);
+            }
+        }
+        const bool even = (D - m) % 2 == 0; // over a cell whose columns are in positive order
+        put(number(layer, cell, m), piece, across, even == (columns_.odd[cell] != 0));
+    }
+
+    void place_cone(std::size_t layer, Index cell, PrismCone<D>& cone) {
+        const auto vertex = cones_.make(layer, cell, cone);
+        for (std::size_t p = 0; p < cone.pieces.size(); ++p) {
+            Simplex<D + 1> piece;
+            Neighbors<D + 1> across;
+            for (std::size_t i = 0; i <= D; ++i) {
+                piece[i] = vertex[cone.pieces[p][i]];
+                across[i] = number(layer, cell, cone.across[p][i]);
+            }
+            piece[D + 1] = vertex[CellPrismPoint<D>::centre];
+            across[D + 1] = across_piece(layer, cell, p);
+            put(number(layer, cell, p), piece, across, cone.odd[p] != columns_.odd[cell]);
+        }
+    }
+
+    void put(Index number, Simplex<D + 1> cell, Neighbors<D + 1> across, bool odd) {
+        if (odd) {
+            std::swap(cell[0], cell[1]);
+            std::swap(across[0], across[1]);
+        }
+        filling_.cells[number] = cell;
+        filling_.neighbors[number] = across;
+    }
+
+    Index number(std::size_t layer, Index cell, std::size_t piece) const {
+        return static_cast<Index>(layer * cones_.cells_per_layer() + cones_.first(cell) + piece);
+    }
+
+    /// The simplex that has a cell's place on the level above `layer`, on that level's other side.
+    Index above(std::size_t layer, Index cell) const {
+        return layer + 1 == columns_.layers() ? no_index
+                                              : number(layer + 1, cell, cones_.is_cone(cell) ? 0 : D);
+    }
+    Index below(std::size_t layer, Index cell) const {
+        return layer == 0 ? no_index : number(layer - 1, cell, cones_.is_cone(cell) ? 1 : 0);
+    }
+
+    /// Across piece m of the wall opposite to a corner.
+    Index across_wall(std::size_t layer, Index cell, std::size_t corner, std::size_t m) const {
+        const Index other = columns_.neighbors[cell][corner];
+        if (other == no_index) {
+            return no_index;
+        }
+        const auto& back = columns_.neighbors[other];
+        const auto place = static_cast<std::size_t>(std::find(back.begin(), back.end(), cell) - back.begin());
+        return number(layer, other,
+                      cones_.is_cone(other) ? cones_.wall_begin(other, place) + m : piece_at_wall(m, place));
+    }
+
+    /// Across piece p of a cone: below, above, or a wall's.
+    Index across_piece(std::size_t layer, Index cell, std::size_t p) const {
+        if (p < 2) {
+            return p == 0 ? below(layer, cell) : above(layer, cell);
+        }
+        std::size_t corner = 0;
+        while (p >= cones_.wall_begin(cell, corner + 1)) {
+            ++corner;
+        }
+        return across_wall(layer, cell, corner, p - cones_.wall_begin(cell, corner));
+    }
+
+    const SlabColumns<D>& columns_;
+    const ConeCells<D>& cones_;
+    Filling<D>& filling_;
+};
+
+/// What is known of the hull's cells and vertices, and of those inside.
+template<int D>
+void describe(const Hull<D>& hull, const SlabColumns<D>& columns, Filling<D>& filling) {
+    filling.facets = hull.cells;
+    filling.facet_attribute.resize(hull.cells.size());
+    for (std::size_t c = 0; c < hull.cells.size();) {
+        const std::size_t end = hull.prism_end(c);
+        const FacetAttribute attribute = attribute_of(hull, c);
+        for (; c < end; ++c) {
+            filling.facet_attribute[c] = attribute;
+        }
+    }
+    filling.patches = hull.patches;
+    filling.vertex_ids = hull.vertex_ids;
+    filling.track_ids = hull.track_ids;
+    filling.hull_points = hull.points.size();
+    filling.slab = hull.slab;
+    filling.time = hull.time;
+    filling.vertex_ids.append_run(-1, filling.points.size() - hull.points.size(), 0);
+    for (std::size_t level = 1; level < columns.layers(); ++level) {
+        for (Index k = 0; k < columns.count; ++k) {
+            if (columns.on_boundary[k] == 0) {
+                filling.track_ids.push_back(hull.track_ids[columns.at(0, k)]);
+            }
+        }
+    }
+    filling.track_ids.append_run(no_track, filling.steiner_points, 0);
+}
+
+} // namespace
+
+template<int D>
+Filling<D> fill_slab(const Hull<D>& hull, StageClock& clock) {
+    Filling<D> filling;
+    const SlabColumns<D> columns = slab_columns(hull, filling);
+    clock.book("cap pairing");
+    place_inside(hull, columns, filling);
+    clock.book("inner places");
+    const SideWalls<D> walls{hull, columns};
+    const ConeCells<D> cones{columns, walls, filling};
+    CellMaker<D>{columns, cones, filling}.run();
+    describe(hull, columns, filling);
+    clock.book("filling");
+    require_positive<D>(filling, columns, cones);
+    clock.book("signs");
+    return filling;
+}
+
+template<int D>
+Filling<D> fill_slab(const Hull<D>& hull) {
+    StageClock clock;
+    return fill_slab(hull, clock);
+}
+
+template Filling<2> fill_slab<2>(const Hull<2>&, StageClock&);
+template Filling<3> fill_slab<3>(const Hull<3>&, StageClock&);
+template Filling<2> fill_slab<2>(const Hull<2>&);
+template Filling<3> fill_slab<3>(const Hull<3>&);
+
+} // namespace slabhull

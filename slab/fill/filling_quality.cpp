@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/filling_quality.h"
+
+#include "slabhull/core/parallel.h"
+#include "slabhull/core/vector.h"
+#include "slabhull/geometry/measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slabhull {
+
+namespace {
+
+constexpr std::size_t cells_per_piece = 1 << 14;
+
+/// Over the edges of the initial cap's cells.
+template<int D>
+double mean_edge(const Filling<D>& filling) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < filling.facets.size() && filling.facet_attribute[f] == 1; ++f) {
+        const auto corners = corners_of<D, D + 1>(filling.facets[f], filling.points);
+        for (std::size_t i = 0; i <= D; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                sum += distance(corners[i], corners[j]);
+                ++count;
+            }
+        }
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 1;
+}
+
+template<int N>
+double mean_ratio(std::array<Point<N>, N + 1> corners, double time_scale) {
+    for (Point<N>& corner : corners) {
+        corner[N - 1] *= time_scale;
+    }
+    double squares = 0;
+    for (std::size_t i = 0; i <= N; ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const Point<N> edge = minus(corners[i], corners[j]);
+            squares += dot(edge, edge);
+        }
+    }
+    double regular = std::sqrt((N + 1) / std::pow(2.0, N));
+    for (int k = 2; k <= N; ++k) {
+        regular /= k;
+    }
+    const double volume = std::max(0.0, signed_measure<N>(corners));
+    return std::pow(volume / regular, 2.0 / N) * N * (N + 1) / 2 / squares;
+}
+
+} // namespace
+
+template<int D>
+FillingQuality filling_quality(const Filling<D>& filling, std::size_t layers) {
+    FillingQuality quality;
+    if (filling.cells.empty()) {
+        return quality;
+    }
+    quality.time_scale =
+        mean_edge(filling) * static_cast<double>(layers) / (filling.time[1] - filling.time[0]);
+    Array<float> ratios(filling.cells.size());
+    parallel_for(ratios.size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            ratios[c] = static_cast<float>(mean_ratio<D + 1>(
+                corners_of<D + 1, D + 1>(filling.cells[c], filling.points), quality.time_scale));
+        }
+    });
+    const auto quantile = [&](std::size_t rank) {
+        const auto place = ratios.begin() + static_cast<std::ptrdiff_t>(rank);
+        std::nth_element(ratios.begin(), place, ratios.end());
+        return static_cast<double>(*place);
+    };
+    quality.median = quantile(ratios.size() / 2);
+    quality.one_per_cent = quantile(ratios.size() / 100);
+    quality.smallest = *std::min_element(ratios.begin(), ratios.end());
+    return quality;
+}
+
+template FillingQuality filling_quality<2>(const Filling<2>&, std::size_t);
+template FillingQuality filling_quality<3>(const Filling<3>&, std::size_t);
+
+} // namespace slabhull

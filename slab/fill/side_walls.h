@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slab/fill/slab_columns.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace slabhull {
+
+/// How the quadrilateral over an edge of the cap is split, for its columns a < b: around a centre, or by the
+/// diagonal from a below to b above ("rising") or from b below to a above.
+struct QuadSplit {
+    Index centre = no_index;
+    bool rising = true;
+
+    bool staircase() const { return centre == no_index && rising; }
+    std::size_t pieces() const { return centre == no_index ? 2 : 4; }
+};
+
+/// How the side of a hull is split, as the prisms inside must know it. A wall is the prism that a facet of
+/// the cap sweeps in a layer. A wall or a quadrilateral whose diagonals all rise is a staircase: it needs no
+/// telling.
+template<int D>
+class SideWalls {
+public:
+    /// Throws GeometryError for a side that is not what a hull's must be.
+    SideWalls(const Hull<D>& hull, const SlabColumns<D>& columns);
+
+    /// Whether the wall over a swept facet is a staircase in every layer.
+    bool staircase(Index swept_facet) const { return staircase_[swept_facet] != 0; }
+    /// The hull's cells in the wall over a swept facet: as many as `cells_per_wall()`, from this one.
+    Index first_cell(std::size_t layer, Index swept_facet) const {
+        return static_cast<Index>(hull_.initial_cells +
+                                  (layer * hull_.facet_patch.size() + swept_facet) * hull_.cells_per_prism);
+    }
+    std::size_t cells_per_wall() const { return hull_.cells_per_prism; }
+    const Hull<D>& hull() const { return hull_; }
+
+    /// The number of the quadrilateral over the edge between columns a < b, when it is on the side and no
+    /// staircase in some layer; else no_index. D = 3: for D = 2, a quadrilateral is a wall.
+    Index quad(Index a, Index b) const;
+    const QuadSplit& split(std::size_t layer, Index quad) const {
+        return splits_[layer * edges_.size() + quad];
+    }
+
+private:
+    void read_wall(std::size_t cell, std::size_t k);
+    bool is_staircase(std::size_t layer, Index facet, const Facet<D>& corners) const;
+    void collect_edges();
+    void require_alike() const;
+    void read_quad(std::size_t layer, Index facet, const std::array<Index, 2>& edge);
+    Index centre_of(std::size_t layer, Index facet, const std::array<Index, 2>& bottom) const;
+
+    const Hull<D>& hull_;
+    const SlabColumns<D>& columns_;
+    Array<std::uint8_t> staircase_;
+    std::vector<std::pair<Index, Facet<D>>> others_; ///< swept facets that are no staircases, their columns
+    std::vector<std::array<Index, 2>> edges_;        ///< of quadrilaterals, ascending
+    std::vector<QuadSplit> splits_;                  ///< by layer, then as edges_
+};
+
+extern template class SideWalls<2>;
+extern template class SideWalls<3>;
+
+} // namespace slabhull

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/fill.h"
+
+#include "slab/swept_grid.h"
+#include "slabhull/core/error.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/slab/check_filling.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+using namespace slabhull;
+
+namespace {
+
+/// Every vertex of the caps on a track, as in a march that moves its caps. Tracks run against the numbers.
+template<int D>
+void track_inside(SpatialMesh<D>& initial, SpatialMesh<D>& terminating, const Boundary<D>& boundary) {
+    const std::size_t count = initial.points.size();
+    std::size_t next = boundary.vertex_count();
+    std::vector<Index> image(count, no_index);
+    for (Index v = 0; v < boundary.vertex_count(); ++v) {
+        image[boundary.mesh_vertices()[v]] = v;
+    }
+    for (std::size_t v = 0; v < count; ++v) {
+        initial.track_ids[v] = static_cast<TrackId>(1 + count - v);
+        const std::size_t end = image[v] == no_index ? next++ : image[v];
+        terminating.track_ids[end] = initial.track_ids[v];
+    }
+}
+
+template<int D>
+MotionPointer<D> turn() {
+    Point<D> axis{}; // not looked at for D = 2
+    axis[D - 1] = 1;
+    return rotation<D>(axis, {}, 0.4);
+}
+
+/// The hull of a grid that turns or stands.
+template<int D>
+Hull<D> hull_over(const specimens::Grid<D>& grid, const SideOptions& side, std::size_t layers, bool turns) {
+    IdCounter ids;
+    std::vector<double> times;
+    for (std::size_t k = 0; k <= layers; ++k) {
+        times.push_back(0.5 + 0.25 * static_cast<double>(k) / static_cast<double>(layers));
+    }
+    auto parts =
+        specimens::next_slab<D>(specimens::as_cap<D>(grid, ids), times, turns ? turn<D>() : nullptr, ids);
+    track_inside<D>(parts.initial, parts.terminating, parts.sweep.boundary);
+    return stitch<D>(parts.initial, parts.sweep, parts.terminating, side, ids);
+}
+
+template<int D>
+std::vector<Split> splits() {
+    if constexpr (D == 2) {
+        return {Split::diagonal, Split::centre};
+    } else {
+        return {Split::A, Split::B, Split::C, Split::D, Split::E};
+    }
+}
+
+template<int D>
+void require_clean(const Filling<D>& filling, const Hull<D>& hull) {
+    const FillingReport report = check_filling<D>(columns_of(filling), &hull);
+    INFO(findings_as_text(report));
+    REQUIRE(report.clean());
+    CHECK(report.boundary_facets == hull.cells.size());
+    CHECK(report.volume == Approx(check_hull<D>(columns_of(hull)).enclosed).epsilon(1e-12));
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE_SIG("a slab over a grid is filled, whatever the split of its side", "[fill]", ((int D), D),
+                       2, 3) {
+    for (const Split split : splits<D>()) {
+        for (const std::size_t layers : {1u, 3u}) {
+            for (const bool turns : {false, true}) {
+                INFO(split_name(split)
+                     << " with " << layers << " layers, " << (turns ? "turning" : "at rest"));
+                const Hull<D> hull = hull_over<D>(specimens::full_box<D>(3), {split}, layers, turns);
+                require_clean(fill_slab(hull), hull);
+            }
+        }
+    }
+}
+
+namespace {
+
+template<int D>
+struct Planted {
+    Hull<D> hull = hull_over<D>(specimens::full_box<D>(2), {splits<D>().back()}, 2, true);
+    Filling<D> filling = fill_slab(hull);
+
+    FillingReport check() const { return check_filling<D>(columns_of(filling), &hull); }
+    /// Without claims that the plant made stale.
+    FillingReport check_bare() const {
+        FillingColumns<D> columns = columns_of(filling);
+        columns.neighbors = {};
+        return check_filling<D>(columns, &hull);
+    }
+    /// A cell on the hull, and the place of its facet there.
+    std::pair<std::size_t, std::size_t> outer() const {
+        for (std::size_t c = 0;; ++c) {
+            for (std::size_t i = 0; i <= D + 1; ++i) {
+                if (filling.neighbors[c][i] == no_index) {
+                    return {c, i};
+                }
+            }
+        }
+    }
+    std::size_t inner() const {
+        std::size_t c = 0;
+        while (std::find(filling.neighbors[c].begin(), filling.neighbors[c].end(), no_index) !=
+               filling.neighbors[c].end()) {
+            ++c;
+        }
+        return c;
+    }
+};
+
+void require_found(const FillingReport& report, std::vector<Defect> expected) {
+    INFO(findings_as_text(report));
+    for (std::size_t kind = 0; kind < defect_kinds; ++kind) {
+        const auto what = static_cast<Defect>(kind);
+        INFO(defect_name(what));
+        REQUIRE((report.count(what) > 0) ==
+                (std::find(expected.begin(), expected.end(), what) != expected.end()));
+    }
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE_SIG("each defect of a filling is found", "[fill]", ((int D), D), 2, 3) {
+    Planted<D> planted;
+    Filling<D>& filling = planted.filling;
+    require_found(planted.check(), {});
+
+    SECTION("a cell on the hull is missing") {
+        filling.cells.erase(filling.cells.begin() + static_cast<std::ptrdiff_t>(planted.outer().first));
+        const auto report = planted.check_bare();
+        require_found(report, {Defect::hull_facet_lost, Defect::hull_facet_added});
+        CHECK(report.count(Defect::hull_facet_lost) + report.count(Defect::hull_facet_added) == D + 2);
+    }
+    SECTION("a cell inside is missing") {
+        filling.cells.erase(filling.cells.begin() + static_cast<std::ptrdiff_t>(planted.inner()));
+        const auto report = planted.check_bare();
+        require_found(report, {Defect::hull_facet_added});
+        CHECK(report.count(Defect::hull_facet_added) == D + 2);
+    }
+    SECTION("a cell is inside out") {
+        const std::size_t victim = planted.inner();
+        std::swap(filling.cells[victim][0], filling.cells[victim][1]);
+        std::swap(filling.neighbors[victim][0], filling.neighbors[victim][1]);
+        const auto report = planted.check();
+        require_found(report, {Defect::inverted_cell, Defect::disoriented_facet, Defect::volume_mismatch});
+        CHECK(report.count(Defect::disoriented_facet) == D + 2);
+    }
+    SECTION("a facet of the hull is seen from outside") {
+        for (std::size_t c = 0; c < filling.cells.size(); ++c) {
+            std::swap(filling.cells[c][0], filling.cells[c][1]);
+        }
+        require_found(planted.check_bare(), {Defect::inverted_cell, Defect::hull_facet_reversed});
+    }
+    SECTION("a cell is there twice") {
+        filling.cells.push_back(filling.cells[planted.inner()]);
+        require_found(planted.check_bare(), {Defect::overfull_facet, Defect::volume_mismatch});
+    }
+    SECTION("a vertex is unused") {
+        filling.points.push_back(filling.points.front());
+        filling.points.back()[0] += 0.01;
+        require_found(planted.check(), {Defect::unused_vertex});
+    }
+    SECTION("a crack: a cell has a vertex of its own at the place of another") {
+        const std::size_t victim = planted.inner();
+        filling.points.push_back(filling.points[filling.cells[victim][0]]);
+        filling.cells[victim][0] = static_cast<Index>(filling.points.size() - 1);
+        require_found(planted.check_bare(), {Defect::coincident_vertices, Defect::hull_facet_added});
+    }
+    SECTION("a vertex is elsewhere than in the hull, by the last bit") {
+        double& x = filling.points[0][0];
+        x = std::nextafter(x, 10.0);
+        require_found(planted.check(), {Defect::hull_vertex_moved});
+    }
+    SECTION("a vertex has left its star") {
+        Point<D + 1>& point = filling.points.back(); // a cell's centre
+        point[0] += 1;
+        require_found(planted.check(), {Defect::inverted_cell});
+    }
+    SECTION("a flat cell") {
+        const auto [c, place] = planted.outer();
+        const Simplex<D + 1> cell = filling.cells[c]; // its vertex off the hull goes to the facet's first
+        filling.points[cell[place]] = filling.points[cell[place == 0 ? 1 : 0]];
+        CHECK(planted.check().count(Defect::degenerate_cell) > 0);
+        CHECK(planted.check().count(Defect::coincident_vertices) > 0);
+    }
+    SECTION("a wrong attribute") {
+        filling.facet_attribute.back() = 3;
+        require_found(planted.check(), {Defect::wrong_attribute});
+    }
+    SECTION("a wrong neighbour") {
+        filling.neighbors[7][1] = 8;
+        require_found(planted.check(), {Defect::wrong_neighbor});
+    }
+    SECTION("a cell names a vertex that there is not") {
+        filling.cells[3][2] = static_cast<Index>(filling.points.size());
+        require_found(planted.check(), {Defect::index_out_of_range});
+    }
+    SECTION("a coordinate that is no number") {
+        filling.points.back()[1] = std::nan("");
+        require_found(planted.check(), {Defect::non_finite_coordinate});
+    }
+    SECTION("a cell names a vertex twice") {
+        filling.cells[5][0] = filling.cells[5][1];
+        CHECK(planted.check_bare().count(Defect::repeated_vertex) == 1);
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("a slab that turns too far in one layer is refused, naming cell and layer", "[fill]",
+                       ((int D), D), 2, 3) {
+    Hull<D> hull = hull_over<D>(specimens::full_box<D>(2), {splits<D>().front()}, 1, false);
+    const std::size_t begin = hull.terminating_points_begin();
+    for (std::size_t v = begin; v < hull.points.size(); ++v) { // half a turn about the middle
+        hull.points[v][0] = 2 - hull.points[v][0];
+        hull.points[v][1] = 2 - hull.points[v][1];
+    }
+    try {
+        fill_slab(hull);
+        FAIL("filled");
+    } catch (const GeometryError& error) {
+        CHECK_THAT(error.what(), Catch::Contains("more layers") && Catch::Contains("in layer 0"));
+        REQUIRE(error.entities.size() >= 2);
+        CHECK(error.entities[0].kind == "cell");
+        CHECK(error.entities[1].kind == "layer");
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("a filling does not depend on the number of threads", "[fill]", ((int D), D), 2, 3) {
+    const Hull<D> hull = hull_over<D>(specimens::full_box<D>(4), {splits<D>().back()}, 3, true);
+    set_thread_count(1);
+    const Filling<D> alone = fill_slab(hull);
+    set_thread_count(4);
+    const Filling<D> together = fill_slab(hull);
+    set_thread_count(0);
+    CHECK(alone.points == together.points);
+    CHECK(alone.cells == together.cells);
+    CHECK(alone.neighbors == together.neighbors);
+}

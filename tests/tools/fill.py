@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`slabhull fill`: every split filled and checked; VTK, Gmsh, meshio and GetFEM on what it writes; refusals."""
+import importlib.util
+import json
+import unittest
+
+import harness
+from harness import ProgramTest, slabhull
+
+ELLIPSOID = '[initial]\nexperiment = "ellipsoid"\nlevel = 1\n[time]\nslabs = 2\nend = 0.25\nlayers = 2\n' \
+            '[side]\nsplit = "{}"\n[cap]\nreuse = "move"\n'
+CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 1\n[time]\nslabs = 2\nlayers = 3\n' \
+         '[side]\nsplit = "{}"\n[cap]\nreuse = "move"\n'
+
+
+def has(*modules):
+    return all(importlib.util.find_spec(module) for module in modules)
+
+
+def h5_size(path):
+    import h5py
+    with h5py.File(path, "r") as file:
+        return file["cells"].shape, file["facets"].shape, file["neighbors"].shape
+
+
+class Filling(ProgramTest):
+    def fill(self, hull, out, *options):
+        result = slabhull("fill", hull, out, "--json", *options)
+        self.assertEqual(result.code, 0, result.err)
+        return json.loads(result.out)
+
+    def checked(self, filling, hull):
+        result = slabhull("check", filling, "--hull", hull, "--json")
+        self.assertEqual(result.code, 0, result.out + result.err)
+        return json.loads(result.out)
+
+    def test_every_split_is_filled_with_the_volume_that_the_hull_encloses(self):
+        for case, splits in ((ELLIPSOID, "ABCDE"), (CIRCLE, ("diagonal", "centre"))):
+            for split in splits:
+                with self.subTest(split=split):
+                    out, _ = self.build(self.case(case.format(split)), out=f"out_{split}")
+                    for slab in ("slab_0000", "slab_0001"):
+                        told = self.fill(out / f"{slab}.vtu", self.dir / "fill.mfem")
+                        hull = self.check(out / f"{slab}.vtu")
+                        found = self.checked(self.dir / "fill.mfem", out / f"{slab}.vtu")
+                        self.assertEqual(found["counts"], told["counts"])
+                        self.assertLess(abs(told["volume"] / hull["measure"]["enclosed"] - 1), 1e-12)
+                        self.assertEqual(told["counts"]["boundary_facets"], hull["counts"]["cells"])
+
+    @unittest.skipUnless(has("h5py"), "no h5py")
+    def test_hdf5_and_mfem_hold_the_same_mesh(self):
+        out, _ = self.build(self.case(ELLIPSOID.format("A")))
+        if slabhull("fill", out / "slab_0000.vtu", self.dir / "f.h5").code == 2:
+            self.skipTest("a build without HDF5")
+        by_h5 = self.checked(self.dir / "f.h5", out / "slab_0000.vtu")
+        self.fill(out / "slab_0000.vtu", self.dir / "f.mfem", "--pentatope-code", 8)
+        self.assertEqual(self.checked(self.dir / "f.mfem", out / "slab_0000.vtu")["volume"], by_h5["volume"])
+        count = by_h5["counts"]
+        self.assertEqual(h5_size(self.dir / "f.h5"), ((count["cells"], 5), (count["boundary_facets"], 4),
+                                                     (count["cells"], 5)))
+        lines = (self.dir / "f.mfem").read_text().split("\n")
+        self.assertEqual(lines[lines.index("elements") + 2].split()[:2], ["1", "8"])
+
+    @unittest.skipUnless(has("getfem"), "no GetFEM")
+    def test_getfem_finds_the_volume_and_the_outer_faces(self):
+        import getfem
+        for case, split, rule in ((ELLIPSOID, "C", "IM_SIMPLEX4D(3)"), (CIRCLE, "centre", "IM_TETRAHEDRON(3)")):
+            out, _ = self.build(self.case(case.format(split)), out=f"out_{split}")
+            told = self.fill(out / "slab_0000.vtu", self.dir / "fill.getfem")
+            mesh = getfem.Mesh("load", str(self.dir / "fill.getfem"))
+            self.assertEqual((mesh.nbcvs(), mesh.nbpts()), (told["counts"]["cells"], told["counts"]["vertices"]))
+            outer = set(map(tuple, mesh.outer_faces().T))
+            ours = {int(r): set(map(tuple, mesh.region(int(r)).T)) for r in mesh.regions()}
+            self.assertEqual({str(r): len(faces) for r, faces in ours.items()}, told["facets_by_attribute"])
+            self.assertEqual(set().union(*ours.values()), outer)
+            volume = getfem.asm_generic(getfem.MeshIm(mesh, getfem.Integ(rule)), 0, "1", -1)
+            self.assertLess(abs(float(volume) / told["volume"] - 1), 1e-12)
+
+    @unittest.skipUnless(has("vtkmodules", "numpy"), "no VTK")
+    def test_vtk_finds_the_volume_of_a_planar_filling(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
+        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+        out, _ = self.build(self.case(CIRCLE.format("centre")))
+        told = self.fill(out / "slab_0001.vtu", self.dir / "fill.vtu")
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(self.dir / "fill.vtu"))
+        size = vtkCellSizeFilter()
+        size.SetInputConnection(reader.GetOutputPort())
+        size.Update()
+        volumes = vtk_to_numpy(size.GetOutput().GetCellData().GetArray("Volume"))
+        self.assertEqual(len(volumes), told["counts"]["cells"])
+        self.assertGreater(volumes.min(), 0)
+        self.assertLess(abs(volumes.sum() / told["volume"] - 1), 1e-12)
+
+    @unittest.skipUnless(has("gmsh", "meshio", "numpy"), "no Gmsh or meshio")
+    def test_gmsh_and_meshio_find_the_boundary_of_a_planar_filling(self):
+        import gmsh
+        import meshio
+        import numpy
+        out, _ = self.build(self.case(CIRCLE.format("diagonal")))
+        told = self.fill(out / "slab_0000.vtu", self.dir / "fill.msh")
+        gmsh.initialize()
+        self.addCleanup(gmsh.finalize)
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(str(self.dir / "fill.msh"))
+        names = {gmsh.model.getPhysicalName(d, tag): tag for d, tag in gmsh.model.getPhysicalGroups(2)}
+        self.assertEqual(names["initial"], 1)
+        self.assertEqual(names["terminating"], 2)
+        triangles = sum(len(tags) for tags in gmsh.model.mesh.getElements(2)[1])
+        self.assertEqual(triangles, told["counts"]["boundary_facets"])
+        mesh = meshio.read(self.dir / "fill.msh")
+        cells = numpy.vstack([block.data for block in mesh.cells if block.type == "tetra"])
+        corners = mesh.points[cells]
+        volume = numpy.linalg.det(corners[:, 1:] - corners[:, :1]).sum() / 6
+        self.assertLess(abs(volume / told["volume"] - 1), 1e-12)
+
+    def test_caps_meshed_anew_are_refused_with_what_would_help(self):
+        out, _ = self.build(self.case(CIRCLE.format("centre").replace('reuse = "move"', '')))
+        result = slabhull("fill", out / "slab_0000.vtu", self.dir / "fill.vtu")
+        self.assertEqual(result.code, 4, result.err)
+        self.assertIn('cap.reuse = "move"', result.err)
+        self.assertFalse((self.dir / "fill.vtu").exists())
+
+    def test_a_slab_that_turns_too_far_is_refused_with_cell_and_layer(self):
+        text = ELLIPSOID.format("A").replace("layers = 2", "layers = 1").replace("end = 0.25", "end = 0.5")
+        out, _ = self.build(self.case(text))
+        result = slabhull("fill", out / "slab_0000.vtu", self.dir / "fill.mfem")
+        self.assertEqual(result.code, 4, result.err)
+        self.assertIn("in layer 0", result.err)
+        self.assertIn("more layers", result.err)
+
+    def test_wrong_usage_and_wrong_files_are_refused(self):
+        out, _ = self.build(self.case(ELLIPSOID.format("A").replace("slabs = 2", "slabs = 1")))
+        hull = out / "slab_0000.vtu"
+        self.assertEqual(slabhull("fill", hull, self.dir / "fill.vtu").code, 2)  # no pentatopes in VTU
+        self.assertEqual(slabhull("fill", hull, self.dir / "fill").code, 2)
+        self.assertEqual(slabhull("fill", hull, self.dir / "f.mfem", "--method", "guess").code, 2)
+        self.assertEqual(slabhull("fill", out / "cap_0001.vtu", self.dir / "f.mfem").code, 2)
+        self.assertEqual(slabhull("fill", self.dir / "none.vtu", self.dir / "f.mfem").code, 3)
+        renumbered = self.dir / "renumbered.vtu"
+        self.assertEqual(slabhull("convert", hull, renumbered, "--renumber", "curve").code, 0)
+        result = slabhull("fill", renumbered, self.dir / "f.mfem")
+        self.assertEqual(result.code, 4, result.err)
+        self.assertIn("as build writes them", result.err)
+        self.assertEqual(slabhull("fill", hull, self.dir / "nowhere" / "f.mfem").code, 5)
+
+    def test_damaged_fillings_are_told_or_refused(self):
+        out, _ = self.build(self.case(ELLIPSOID.format("A").replace("slabs = 2", "slabs = 1")))
+        hull = out / "slab_0000.vtu"
+        self.fill(hull, self.dir / "f.mfem")
+        text = (self.dir / "f.mfem").read_text()
+        lines = text.split("\n")
+        first = lines.index("elements") + 2
+        broken = self.dir / "broken.mfem"
+        swapped = lines[first].split()
+        swapped[2], swapped[3] = swapped[3], swapped[2]
+        broken.write_text("\n".join(lines[:first] + [" ".join(swapped)] + lines[first + 1:]))
+        result = slabhull("check", broken)
+        self.assertEqual(result.code, 1, result.err)
+        self.assertIn("inverted-cell: cell 0", result.out)
+        swapped[2] = "99999999"
+        broken.write_text("\n".join(lines[:first] + [" ".join(swapped)] + lines[first + 1:]))
+        result = slabhull("check", broken)
+        self.assertEqual(result.code, 3)
+        self.assertIn("cell 0 has the vertex 99999999", result.err)
+        for cut in (30, len(text) // 3, len(text) - 20):
+            broken.write_text(text[:cut])
+            self.assertIn(slabhull("check", broken).code, (2, 3))
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commands.h"
+
+#include "mesh_formats.h"
+#include "slabhull/cases/filling_files.h"
+#include "slabhull/cases/hull_files.h"
+#include "slabhull/cases/report.h"
+#include "slabhull/core/error.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/slab/fill.h"
+#include "slabhull/slab/filling_quality.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace slabhull::tools {
+
+namespace {
+
+struct FillCommand {
+    std::string hull;
+    std::string from;
+    std::string out;
+    std::string to;
+    std::string method = "march";
+    FillingFileOptions file;
+    bool json = false;
+    int threads = 0;
+};
+
+/// Throws InputError for what is no sound hull.
+template<int D>
+Hull<D> sound_hull(const FillCommand& command, const HullColumns<D>& columns) {
+    const HullReport report = check_hull<D>(columns);
+    if (!report.clean()) {
+        throw InputError{fmt::format("{}: `slabhull check` finds {} defects, so it cannot be filled; the "
+                                     "first: {}",
+                                     command.hull, report.total(), report.findings.front().text),
+                         report.findings.front().entities};
+    }
+    return hull_of_columns<D>(columns);
+}
+
+template<int D>
+Hull<D> read_hull(const FillCommand& command, io::Soup& soup) {
+    const HullArrays<D> arrays = hull_of_soup<D>(soup);
+    return sound_hull<D>(command, arrays.columns());
+}
+
+template<int D>
+void tell(const FillCommand& command, const Filling<D>& filling, std::size_t layers,
+          const FillingReport& report, const StageClock& clock) {
+    if (command.json) {
+        nlohmann::ordered_json json{{"file", command.out}};
+        json.update(nlohmann::ordered_json::parse(report_as_json(report)));
+        const FillingQuality quality = filling_quality(filling, layers);
+        json["steiner_points"] = filling.steiner_points;
+        json["mean_ratio"] = {quality.smallest, quality.one_per_cent, quality.median};
+        json["time_scale"] = quality.time_scale;
+        for (const auto& [stage, seconds] : clock.stages()) {
+            json["seconds"][stage] = seconds;
+        }
+        fmt::print("{}\n", json.dump(2));
+        return;
+    }
+    fmt::print("{}: {} {} on {} points, {} of them centres; volume {:.15g}\n", command.out,
+               filling.cells.size(), D == 2 ? "tetrahedra" : "pentatopes", filling.points.size(),
+               filling.steiner_points, report.volume);
+}
+
+template<int D>
+int fill_file(const FillCommand& command, io::Soup& soup) {
+    const std::string format = filling_format(command.out, command.to, D);
+    StageClock clock;
+    const Hull<D> hull = read_hull<D>(command, soup);
+    clock.book("reading and checking the hull");
+    const Filling<D> filling = fill_slab(hull, clock);
+    const FillingReport report = check_filling<D>(columns_of(filling), &hull);
+    clock.book("check");
+    if (!report.clean()) {
+        throw GeometryError{fmt::format("the filling of {} is not sound, so it is not written:\n{}",
+                                        command.hull, findings_as_text(report))};
+    }
+    io::AtomicFiles files;
+    write_filling<D>(files, command.out, filling, format, command.file);
+    files.commit();
+    clock.book("writing");
+    tell<D>(command, filling, hull.layers, report, clock);
+    return 0;
+}
+
+int fill(const FillCommand& command) {
+    set_thread_count(command.threads);
+    if (command.method != "march") {
+        throw UsageError{fmt::format("--method: \"march\" is the only one that this version has, not \"{}\"",
+                                     command.method)};
+    }
+    io::Soup soup = read_named(command.hull, command.from);
+    const MeshKind kind = kind_of(soup);
+    if (!kind.hull) {
+        throw UsageError{
+            fmt::format("{}: a mesh in space; only the hulls of slabs are filled", command.hull)};
+    }
+    return kind.dimension == 2 ? fill_file<2>(command, soup) : fill_file<3>(command, soup);
+}
+
+} // namespace
+
+void add_fill(CLI::App& program, int& exit_code) {
+    auto command = std::make_shared<FillCommand>();
+    CLI::App* app =
+        program.add_subcommand("fill", "Fill a hull whose caps are one mesh moved with space-time simplices");
+    app->add_option("HULL", command->hull, "The hull of a slab, built with cap.reuse = \"move\"")->required();
+    app->add_option("OUT", command->out, "The filling: .mfem, .getfem, .h5; in 2D+t also .vtu and .msh")
+        ->required();
+    app->add_option("--from", command->from, "Format of HULL, whatever its extension and content");
+    app->add_option("--to", command->to, "Format of OUT, whatever its extension");
+    app->add_option("--method", command->method, "march: by extrusion of the caps' cells");
+    app->add_option("--pentatope-code", command->file.pentatope_code,
+                    "Of MFEM files in four dimensions: 6 (CFOSLS, older), 7 (2021) or 8 (later)")
+        ->check(CLI::Range(6, 8));
+    app->add_flag("--json", command->json, "One JSON document on stdout");
+    app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")
+        ->check(CLI::Range(0, 1024));
+    app->footer("Exit code 4: the caps are not one mesh moved, or a simplex would be inside out.\n"
+                "Example: slabhull fill out/ellipsoid/slab_0000.vtu fill_0000.mfem");
+    app->callback([command, &exit_code] { exit_code = fill(*command); });
+}
+
+} // namespace slabhull::tools
