@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`check --embedding`: bodies that pass through each other between two levels are found, sound hulls are not blamed."""
+"""Bodies that pass through each other between two levels are found by `build` and `check`, sound hulls are not blamed."""
 import json
 import re
 import shutil
@@ -29,7 +29,7 @@ def diamond(x, y):
 
 
 class Embedding(ProgramTest):
-    def two_bodies(self, dimension, offset, layers=1, split=None):
+    def two_bodies(self, dimension, offset, layers=1, split=None, check=True):
         """Body a goes from x = -1 to 1 as b goes back; `offset` is how far apart in y they pass."""
         write, suffix, key = ((octahedron, "off", "surfaces"), (diamond, "dat", "curves"))[3 - dimension]
         for name, x, y in (("a", -1, 0), ("b", 1, offset)):
@@ -38,6 +38,7 @@ class Embedding(ProgramTest):
         zero = ", 0" * (dimension - 1)
         side = f'[side]\nsplit = "{split}"\n' if split else ""
         return self.case(f"dimension = {dimension}\n[initial]\n{key} = [ {bodies} ]\n{BOX[dimension]}\n"
+                         f'[check]\nembedding = {"true" if check else "false"}\n'
                          f"[time]\nstart = 3\nend = 5\nlayers = {layers}\n{side}"
                          f'[motion.a]\nkind = "translation"\nvelocity = [1{zero}]\n'
                          f'[motion.b]\nkind = "translation"\nvelocity = [-1{zero}]\n')
@@ -45,10 +46,14 @@ class Embedding(ProgramTest):
     def test_bodies_that_change_places_within_a_layer_are_found_with_cells_patches_and_time(self):
         for dimension in (2, 3):
             with self.subTest(dimension):
-                out, _ = self.build(self.two_bodies(dimension, OFFSET), out=f"through{dimension}")
+                out, report = self.build(self.two_bodies(dimension, OFFSET, check=False), out=f"through{dimension}")
+                self.assertIsNone(report["slabs"][0]["embedding"])
+                self.assertFalse(report["settings"]["check_embedding"])
                 hull = out / "slab_0000.vtu"
-                self.assertEqual(slabhull("check", hull).code, 0)  # every level is sound
-                result = slabhull("check", hull, "--embedding", "--json")
+                left_out = slabhull("check", hull, "--no-embedding", "--json")
+                self.assertEqual(left_out.code, 0)  # every level is sound
+                self.assertIn("--no-embedding", " ".join(json.loads(left_out.out)["skipped"]))
+                result = slabhull("check", hull, "--json")
                 self.assertEqual(result.code, 1, result.err)
                 document = json.loads(result.out)
                 self.assertEqual(set(document["defects"]), {"self-crossing"})
@@ -56,6 +61,21 @@ class Embedding(ProgramTest):
                 self.assertEqual(document["embedding"]["crossings"], document["defects"]["self-crossing"])
                 for finding in document["findings"]:
                     self.check_text(finding)
+
+    def test_build_refuses_bodies_that_change_places_within_a_layer(self):
+        for dimension in (2, 3):
+            with self.subTest(dimension):
+                self.refused(self.two_bodies(dimension, OFFSET), 4, "crosses itself", "patch a", "patch b", "meet at t = ")
+
+    def test_build_warns_where_nothing_is_proven(self):
+        result = slabhull("build", self.two_bodies(2, 0.9, check=False), "--out", self.dir / "out", "--quiet")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("check.embedding is false", result.err)
+
+    def test_a_half_turn_in_one_layer_is_refused_soon(self):
+        case = self.case('[initial]\nexperiment = "ellipsoid"\n[time]\nlayers = 1\n[motion.body]\nkind = "rotation"\n'
+                         'axis = [0, 0, 1]\ncentre = [0, 0, 0]\nrate = 3.14159265\n')
+        self.refused(case, 4, "crosses itself", "patch body", "more")
 
     def check_text(self, finding):
         """Cells of both bodies by number, meeting where and when both bodies' surfaces are."""
@@ -89,7 +109,7 @@ class Embedding(ProgramTest):
         self.assertLess(embedding["tested_pairs"], 10 * embedding["tested_cells"])
 
     def test_the_report_does_not_depend_on_the_number_of_threads(self):
-        out, _ = self.build(self.two_bodies(3, OFFSET))
+        out, _ = self.build(self.two_bodies(3, OFFSET, check=False))
         reports = {slabhull("check", out / "slab_0000.vtu", "--embedding", "--json", "--threads", n).out
                    for n in (1, 2, 7)}
         self.assertEqual(len(reports), 1)
