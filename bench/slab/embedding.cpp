@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The proof that a hull does not cross itself: hulls of the turning ellipsoid from 10^5 to 10^7 tetrahedra, on all
-// threads. The rate counts the side's cells. Before its time counts, the proof must find nothing on the hull, and
-// crossings on the same hull with a vertex between the caps moved by a tenth of the box.
-#include "slabhull/slab/check_embedding.h"
+// The proof that a hull does not cross itself: hulls of the turning ellipsoid from 10^5 to 10^7 tetrahedra,
+// on all threads. The rate counts the side's cells. Before its time counts, the proof must find nothing on
+// the hull, and crossings on the same hull with a vertex between the caps moved by a tenth of the box.
 #include "../growth.h"
 #include "../memory.h"
 #include "slabhull/cases/initial.h"
@@ -10,6 +9,7 @@
 #include "slabhull/core/child_process.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/stopwatch.h"
+#include "slabhull/slab/check_embedding.h"
 #include "slabhull/slab/slab.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/cases/filling_files.h"
 
+#include "cases/run/index_rows.h"
 #include "slabhull/core/error.h"
 #include "slabhull/io/formats.h"
 #include "slabhull/slab/hull_columns.h"
@@ -17,15 +18,6 @@ namespace slabhull {
 namespace {
 
 using io::Scalar;
-
-template<std::size_t N>
-Column<std::int64_t> index_rows(std::span<const std::array<Index, N>> rows) {
-    return {rows.size(), N, [rows](std::size_t begin, std::size_t end, std::int64_t* out) {
-                for (std::size_t row = begin; row < end; ++row) {
-                    out = std::copy(rows[row].begin(), rows[row].end(), out);
-                }
-            }};
-}
 
 template<std::size_t N>
 Column<double> coordinates(std::span<const std::array<double, N>> points) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/cases/hull_files.h"
 
+#include "cases/run/index_rows.h"
 #include "cases/run/mesh_soup.h"
 #include "edit/soup_cells.h"
 #include "slabhull/core/error.h"
@@ -32,17 +33,6 @@ Column<T> computed(std::size_t rows, Value value) {
                              *out++ = static_cast<T>(value(row));
                          }
                      }};
-}
-
-template<std::size_t N>
-Column<std::int64_t> index_rows(std::span<const std::array<Index, N>> rows, std::int64_t shift = 0) {
-    return {rows.size(), N, [rows, shift](std::size_t begin, std::size_t end, std::int64_t* out) {
-                for (std::size_t row = begin; row < end; ++row) {
-                    for (const Index value : rows[row]) {
-                        *out++ = static_cast<std::int64_t>(value) + shift;
-                    }
-                }
-            }};
 }
 
 /// Three coordinates for every point: (x, y, t) or (x, y, z) of a hull, (x, y, 0) or (x, y, z) of a cap.

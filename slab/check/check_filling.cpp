@@ -17,7 +17,7 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::size_t cells_per_piece = 1 << 14;
+constexpr std::size_t cells_per_survey = 1 << 14;
 
 /// A facet by its vertices in ascending order, with the parity of the order that it was given in.
 template<int D>
@@ -90,7 +90,7 @@ private:
             findings_.cell(Defect::repeated_vertex, c, "names a vertex twice");
         }
         std::vector<std::uint8_t> used(report_.vertices, 0);
-        parallel_for(report_.cells, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+        parallel_for(report_.cells, cells_per_survey, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
                 for (const Index v : filling_.cells[c]) {
                     std::atomic_ref{used[v]}.store(1, std::memory_order_relaxed);
@@ -202,9 +202,9 @@ private:
     };
 
     void check_cells() {
-        std::vector<Sums> pieces((report_.cells + cells_per_piece - 1) / cells_per_piece);
-        parallel_for(report_.cells, cells_per_piece, [&](std::size_t begin, std::size_t end) {
-            Sums& sums = pieces[begin / cells_per_piece];
+        std::vector<Sums> pieces((report_.cells + cells_per_survey - 1) / cells_per_survey);
+        parallel_for(report_.cells, cells_per_survey, [&](std::size_t begin, std::size_t end) {
+            Sums& sums = pieces[begin / cells_per_survey];
             for (std::size_t c = begin; c < end; ++c) {
                 survey(static_cast<Index>(c), sums);
             }

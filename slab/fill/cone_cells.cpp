@@ -39,7 +39,7 @@ Point<D + 1> mean_of_columns(const SlabColumns<D>& columns, const Filling<D>& fi
 template<int D>
 ConeCells<D>::ConeCells(const SlabColumns<D>& columns, const SideWalls<D>& walls, Filling<D>& filling)
     : columns_{columns}, walls_{walls}, centres_begin_{filling.points.size()} {
-    for (Index c = 0; c < columns.cells.size(); ++c) {
+    for (Index c = 0; !walls.all_staircases() && c < columns.cells.size(); ++c) {
         if (meets_other_split(c)) {
             cones_.push_back({c, {}, {}});
         }

@@ -17,7 +17,7 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::size_t cells_per_piece = 1 << 12;
+constexpr std::size_t prisms_per_fill = 1 << 12;
 
 template<int D>
 Point<D> in_space(const Point<D + 1>& point) {
@@ -78,7 +78,7 @@ public:
         filling_.cells.resize(count);
         filling_.neighbors.resize(count);
         const std::size_t prisms = columns_.cells.size();
-        parallel_for(columns_.layers() * prisms, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+        parallel_for(columns_.layers() * prisms, prisms_per_fill, [&](std::size_t begin, std::size_t end) {
             PrismCone<D> cone;
             for (std::size_t k = begin; k < end; ++k) {
                 const std::size_t layer = k / prisms;

@@ -12,7 +12,7 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::size_t cells_per_piece = 1 << 14;
+constexpr std::size_t cells_per_ratio = 1 << 14;
 
 /// Over the edges of the initial cap's cells.
 template<int D>
@@ -62,7 +62,7 @@ FillingQuality filling_quality(const Filling<D>& filling, std::size_t layers) {
     quality.time_scale =
         mean_edge(filling) * static_cast<double>(layers) / (filling.time[1] - filling.time[0]);
     Array<float> ratios(filling.cells.size());
-    parallel_for(ratios.size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+    parallel_for(ratios.size(), cells_per_ratio, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             ratios[c] = static_cast<float>(mean_ratio<D + 1>(
                 corners_of<D + 1, D + 1>(filling.cells[c], filling.points), quality.time_scale));

@@ -28,6 +28,8 @@ public:
     /// Throws GeometryError for a side that is not what a hull's must be.
     SideWalls(const Hull<D>& hull, const SlabColumns<D>& columns);
 
+    /// Whether all walls are staircases in every layer.
+    bool all_staircases() const { return others_.empty(); }
     /// Whether the wall over a swept facet is a staircase in every layer.
     bool staircase(Index swept_facet) const { return staircase_[swept_facet] != 0; }
     /// The hull's cells in the wall over a swept facet: as many as `cells_per_wall()`, from this one.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/fill/slab_columns.h"
 
+#include "core/listed.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 
@@ -18,14 +19,6 @@ namespace {
 constexpr std::size_t items_per_piece = 1 << 14;
 constexpr std::size_t most_named = 10;
 
-/// `numbers` for people, not all where they are many.
-std::string listed(const std::vector<Index>& numbers) {
-    const std::size_t named = std::min(numbers.size(), most_named);
-    return fmt::format("{}{}",
-                       fmt::join(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(named), ", "),
-                       numbers.size() > named ? ", ..." : "");
-}
-
 std::vector<Entity> entities_of(const char* kind, const std::vector<Index>& numbers) {
     std::vector<Entity> entities;
     for (std::size_t k = 0; k < std::min(numbers.size(), most_named); ++k) {
@@ -38,7 +31,7 @@ std::vector<Entity> entities_of(const char* kind, const std::vector<Index>& numb
     throw GeometryError(fmt::format("{} {} {}: the slab cannot be filled, since its caps are not one mesh "
                                     "moved. A cap that was meshed anew has none before it; build with "
                                     "cap.reuse = \"move\", and with shorter slabs where moving fails",
-                                    what, kind, listed(at_fault)),
+                                    what, kind, listed(at_fault, most_named)),
                         entities_of(kind, at_fault));
 }
 

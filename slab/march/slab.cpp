@@ -2,8 +2,8 @@
 #include "slabhull/slab/slab.h"
 
 #include "slab/march/cap_reuse.h"
-#include "slabhull/core/progress.h"
 #include "slabhull/core/memory.h"
+#include "slabhull/core/progress.h"
 #include "slabhull/slab/tangling.h"
 
 #include <fmt/format.h>

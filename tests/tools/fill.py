@@ -2,6 +2,8 @@
 """`slabhull fill`: every split filled and checked; VTK, Gmsh, meshio and GetFEM on what it writes; refusals."""
 import importlib.util
 import json
+import subprocess
+import sys
 import unittest
 
 import harness
@@ -75,6 +77,39 @@ class Filling(ProgramTest):
             self.assertEqual(set().union(*ours.values()), outer)
             volume = getfem.asm_generic(getfem.MeshIm(mesh, getfem.Integ(rule)), 0, "1", -1)
             self.assertLess(abs(float(volume) / told["volume"] - 1), 1e-12)
+
+    @unittest.skipUnless(has("getfem", "numpy"), "no GetFEM")
+    def test_getfem_solves_on_our_pentatopes(self):
+        out, _ = self.build(self.case(ELLIPSOID.format("A")))
+        self.fill(out / "slab_0001.vtu", self.dir / "fill.getfem")
+        done = subprocess.run([sys.executable, harness.ROOT / "examples" / "heat_getfem.py", self.dir / "fill.getfem"],
+                              capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)  # a linear u is found to rounding
+        self.assertIn("in 3D + t", done.stdout)
+
+    def test_build_fills_slabs_and_tells_of_them(self):
+        out, report = self.build(self.case(CIRCLE.format("centre") + '[fill]\nformats = ["mfem", "vtu"]\n'))
+        for slab in report["slabs"]:
+            name = f"fill_{slab['slab']:04}"
+            found = self.checked(out / f"{name}.mfem", out / f"slab_{slab['slab']:04}.vtu")
+            self.assertEqual(found["counts"]["cells"], slab["fill"]["cells"])
+            smallest, one_per_cent, median = slab["fill"]["mean_ratio"]
+            self.assertTrue(0 < smallest < one_per_cent < median < 1)
+            self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
+            self.assertTrue((out / f"{name}.vtu").exists())
+
+    def test_fill_wants_caps_that_move_and_formats_that_there_are(self):
+        still = CIRCLE.format("centre").replace('[cap]\nreuse = "move"\n', "")
+        self.refused(self.case(still + "[fill]\n"), 2, "fill", "reuse")
+        self.refused(self.case(ELLIPSOID.format("A") + '[fill]\nformats = ["vtu"]\n'), 2, "formats", "getfem")
+        self.refused(self.case(CIRCLE.format("centre") + "[fill]\nformat = 1\n"), 2, "format")
+
+    def test_a_slab_meshed_anew_is_not_filled_and_the_run_goes_on(self):
+        text = CIRCLE.format("centre").replace('reuse = "move"', 'reuse = "move"\nreuse_angle = 60')
+        result = slabhull("build", self.case(text + "[fill]\n"), "--out", self.dir / "out", "--quiet")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("is not filled", result.err)
+        self.assertEqual(list((self.dir / "out").glob("fill_*")), [])
 
     @unittest.skipUnless(has("vtkmodules", "numpy"), "no VTK")
     def test_vtk_finds_the_volume_of_a_planar_filling(self):

@@ -146,7 +146,7 @@ struct Case {
     CapReuse cap_reuse = CapReuse::none;
     double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
 
-    bool check_embedding = true; ///< a hull that is not proven to cross itself nowhere is refused
+    bool check_embedding = true;  ///< a hull that is not proven to cross itself nowhere is refused
     std::optional<FillSpec> fill; ///< needs CapReuse::move
 
     std::filesystem::path directory = "out";
