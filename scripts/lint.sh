@@ -10,4 +10,5 @@ build=${1:-build/lint}
 rooms='core|topology|geometry|io|slab|edit|cases|study|tools'
 sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' "$build/compile_commands.json" | sort -u |
     xargs -d '\n' -n 1 -P "$(nproc)" clang-tidy-16 --quiet -p "$build" \
-        --header-filter="^$PWD/($rooms)/" --extra-arg=-Wno-unknown-warning-option 2> >(grep -v 'warnings generated' >&2)
+        --header-filter="^$PWD/($rooms)/" --checks=-bugprone-suspicious-include \
+            --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-shadow 2> >(grep -v 'warnings generated' >&2)
