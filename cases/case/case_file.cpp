@@ -401,7 +401,7 @@ private:
     void read_writing(KeyTable table, const char* format) {
         const io::WriteVariants& variants = io::format_named(format)->variants;
         const auto one_of = [&](const char* key, const std::vector<std::string_view>& offered) {
-            const std::string chosen = table.optional_text(key).value_or("");
+            std::string chosen = table.optional_text(key).value_or("");
             if (!chosen.empty() && std::find(offered.begin(), offered.end(), chosen) == offered.end()) {
                 table.fail(key,
                            fmt::format("one of \"{}\", not \"{}\"", fmt::join(offered, "\", \""), chosen));

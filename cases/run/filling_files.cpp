@@ -152,7 +152,7 @@ std::string filling_format(const std::filesystem::path& path, const std::string&
         known.insert(known.end(), {"vtu", "msh"});
     }
     const std::string extension = path.extension().string();
-    const std::string wanted = !name.empty() ? name : extension.empty() ? "" : extension.substr(1);
+    std::string wanted = !name.empty() ? name : extension.empty() ? "" : extension.substr(1);
     if (std::find(known.begin(), known.end(), wanted) == known.end()) {
         throw UsageError{fmt::format("{}: \"{}\" is no format of a filling in {}D+t; there are {} (--to)",
                                      path.string(), wanted, dimension, fmt::join(known, ", "))};

@@ -160,7 +160,7 @@ MotionPointer<D> rotation_from_file(const std::filesystem::path& path, const Poi
     table.times = columns.numbers("time");
     table.angles = columns.angles("angle");
     columns.require_all_known();
-    const auto motion = columns.made_by([&] { return rotation<D>(axis, centre, table); });
+    auto motion = columns.made_by([&] { return rotation<D>(axis, centre, table); });
     columns.require_cover(table.times, span);
     return motion;
 }
@@ -174,7 +174,7 @@ MotionPointer<D> rigid_table_from_file(const std::filesystem::path& path, const 
     read_shifts(columns, table);
     read_turn(columns, table);
     columns.require_all_known();
-    const auto motion = columns.made_by([&] { return rigid_table<D>(table, centre); });
+    auto motion = columns.made_by([&] { return rigid_table<D>(table, centre); });
     columns.require_cover(table.times, span);
     return motion;
 }

@@ -37,7 +37,8 @@ struct Box {
     bool meets(const Box& other) const {
         bool apart = false; // no branch per axis: it could not be predicted
         for (std::size_t k = 0; k < D; ++k) {
-            apart |= (low[k] > other.high[k]) | (other.low[k] > high[k]);
+            apart |= low[k] > other.high[k];
+            apart |= other.low[k] > high[k];
         }
         return !apart;
     }

@@ -120,12 +120,12 @@ std::array<Rational, N + 2> column_of(const Point<N>& p, int sign, bool off) {
 
 template<int N>
 std::optional<Point<N>> common_point(const FacetPair<N>& pair) {
-    std::array<std::array<Rational, N + 2>, 2 * N> columns;
+    std::array<std::array<Rational, N + 2>, std::size_t{2} * N> columns;
     for (std::size_t i = 0; i < N; ++i) {
         columns[i] = column_of<N>(pair.f[i], 1, i >= pair.shared);
         columns[N + i] = column_of<N>(pair.g[i], -1, i >= pair.shared);
     }
-    const auto weights = FeasibilityProgram<N + 2, 2 * N>{columns}.solve();
+    const auto weights = FeasibilityProgram<N + 2, std::size_t{2} * N>{columns}.solve();
     if (!weights) {
         return {};
     }

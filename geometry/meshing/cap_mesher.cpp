@@ -141,6 +141,7 @@ void CapInspection<D>::require_given_points() const {
         return;
     }
     for (std::size_t v = 0; v < given; ++v) {
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bit for bit is what is meant
         if (std::memcmp(&mesh_.points[v], &surface_.points[v], sizeof(Point<D>)) != 0) {
             refuse(fmt::format("vertex {} of the surface at {} was moved or renumbered", v,
                                place_in_words(surface_.points[v])),

@@ -51,7 +51,7 @@ struct CutPlane {
 std::vector<Point<3>> directions() {
     std::vector<Point<3>> all;
     for (int code = 14; code < 27; ++code) { // one of each opposite pair
-        const Point<3> d{code % 3 - 1.0, code / 3 % 3 - 1.0, code / 9 - 1.0};
+        const Point<3> d{double(code % 3 - 1), double(code / 3 % 3 - 1), double(code / 9 - 1)};
         all.push_back(times(1 / norm(d), d));
     }
     return all;

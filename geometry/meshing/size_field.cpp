@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/size_field.h"
 
+#include "slabhull/core/vector.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,15 +13,6 @@ namespace {
 
 /// Boxes are never halved more often: the digits of a double are used up, whatever the ratio of sizes.
 constexpr int max_depth = 48;
-
-template<int D>
-double distance(const Point<D>& a, const Point<D>& b) {
-    double square = 0;
-    for (std::size_t k = 0; k < D; ++k) {
-        square += (a[k] - b[k]) * (a[k] - b[k]);
-    }
-    return std::sqrt(square);
-}
 
 } // namespace
 

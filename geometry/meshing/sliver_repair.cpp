@@ -118,7 +118,7 @@ private:
         const Point<3> from = mesh_.points[vertex];
         Point<3> to = from;
         for (int code = 0; code < 27; ++code) {
-            const Point<3> direction{code % 3 - 1.0, code / 3 % 3 - 1.0, code / 9 - 1.0};
+            const Point<3> direction{double(code % 3 - 1), double(code / 3 % 3 - 1), double(code / 9 - 1)};
             const double length = code == 13 ? 1 : norm(direction);
             mesh_.points[vertex] = plus(from, times(step / length, direction));
             const double smallest = smallest_around(best);

@@ -59,7 +59,7 @@ private:
     void write_cells(int dimension, const Column<std::int64_t>& cells,
                      const std::vector<MeshColumns::Group>& groups) {
         constexpr std::array<std::string_view, 3> names{"Edges\n", "Triangles\n", "Tetrahedra\n"};
-        const auto corners = static_cast<std::size_t>(dimension + 1);
+        const auto corners = static_cast<std::size_t>(dimension) + 1;
         out_.put(names.at(corners - 2));
         out_.number(cells.rows(), '\n');
         for (const MeshColumns::Group& group : checked_groups(cells, groups, "write_medit")) {

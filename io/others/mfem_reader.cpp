@@ -50,7 +50,7 @@ private:
     void read_elements(const std::string& section, int dimension) {
         expect(section);
         SimplexBlock& block = soup_.simplices[static_cast<std::size_t>(dimension)];
-        const auto corners = static_cast<std::size_t>(dimension + 1);
+        const auto corners = static_cast<std::size_t>(dimension) + 1;
         const auto claimed = in_.parsed<std::uint64_t>("a count");
         const std::size_t count = in_.plausible(claimed, 2 * (corners + 2) - 1, section.c_str());
         checked_index(count, section.c_str());

@@ -96,7 +96,7 @@ void write_elements(TextStream& out, const char* section, int dimension, const C
                                              mfem_simplex_type(dimension));
         for_each_row(cells, group.begin, group.end, [&](std::size_t, const std::int64_t* vertices) {
             out.put(head);
-            out.numbers(vertices, static_cast<std::size_t>(dimension + 1), '\n');
+            out.numbers(vertices, static_cast<std::size_t>(dimension) + 1, '\n');
         });
     }
 }

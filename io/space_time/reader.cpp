@@ -62,7 +62,7 @@ private:
     void read_elements(const std::string& section, int dimension, Array<Index>& vertices,
                        Array<std::int64_t>& attribute) {
         expect(section);
-        const auto corners = static_cast<std::size_t>(dimension + 1);
+        const auto corners = static_cast<std::size_t>(dimension) + 1;
         const auto claimed = in_.parsed<std::uint64_t>("a count");
         const std::size_t count = in_.plausible(claimed, 2 * (corners + 2) - 1, section.c_str());
         checked_index(count, section.c_str());

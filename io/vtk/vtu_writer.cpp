@@ -162,7 +162,7 @@ void add_data(VtuLayout& layout, const std::string& section, const std::vector<D
 
 void add_cells(VtuLayout& layout, const MeshColumns& mesh) {
     const std::size_t cells = mesh.cells.rows();
-    const auto corners = static_cast<std::size_t>(mesh.dimension + 1);
+    const auto corners = static_cast<std::size_t>(mesh.dimension) + 1;
     const Column<std::int64_t> ends{cells, 1,
                                     [corners](std::size_t begin, std::size_t end, std::int64_t* out) {
                                         for (std::size_t cell = begin; cell < end; ++cell) {

@@ -263,11 +263,12 @@ private:
         for (std::size_t c = begin + common; c < hull_.cells.size(); ++c) {
             images.emplace_back(columns_of_cell(c), static_cast<Index>(c));
         }
-        require_same(std::move(lost), std::move(images));
+        require_same(lost, std::move(images));
     }
 
     /// `lost` and `images` are the cells of the caps that differ when numbers are compared.
-    void require_same(std::vector<Index> lost, std::vector<std::pair<Simplex<D>, Index>> images) const {
+    void require_same(const std::vector<Index>& lost,
+                      std::vector<std::pair<Simplex<D>, Index>> images) const {
         std::sort(images.begin(), images.end());
         std::vector<std::uint8_t> met(images.size(), 0);
         std::vector<Index> differ;

@@ -57,7 +57,7 @@ void number_vertices(SpatialMesh<D>& mesh, IdCounter& ids) {
 }
 
 template<int D>
-Facet<D> sorted(Facet<D> facet) {
+Facet<D> ascending_facet(Facet<D> facet) {
     std::sort(facet.begin(), facet.end());
     return facet;
 }
@@ -230,7 +230,7 @@ private:
         std::vector<FacetByVertices> facets;
         facets.reserve(input_.facets.size());
         for (std::size_t f = 0; f < input_.facets.size(); ++f) {
-            facets.emplace_back(sorted<D>(input_.facets[f]), f);
+            facets.emplace_back(ascending_facet<D>(input_.facets[f]), f);
         }
         std::sort(facets.begin(), facets.end());
         return facets;
@@ -254,7 +254,7 @@ private:
     void add_boundary_facet(const Facet<D>& facet, const std::vector<FacetByVertices>& facets,
                             std::vector<bool>& bounds) {
         mesh_.boundary_facets.push_back(facet);
-        const Facet<D> key = sorted<D>(facet);
+        const Facet<D> key = ascending_facet<D>(facet);
         auto found = std::lower_bound(facets.begin(), facets.end(), FacetByVertices{key, 0});
         if (found == facets.end() || found->first != key) {
             mesh_.boundary_patch.push_back(0);
@@ -278,7 +278,7 @@ private:
         std::vector<bool> inside(facets.size(), false);
         for (const Simplex<D>& cell : mesh_.cells) {
             for (int i = 0; i <= D; ++i) {
-                const Facet<D> key = sorted<D>(outward_facet<D>(cell, i));
+                const Facet<D> key = ascending_facet<D>(outward_facet<D>(cell, i));
                 auto found = std::lower_bound(facets.begin(), facets.end(), FacetByVertices{key, 0});
                 for (; found != facets.end() && found->first == key; ++found) {
                     inside[static_cast<std::size_t>(found - facets.begin())] = true;

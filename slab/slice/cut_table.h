@@ -72,8 +72,9 @@ constexpr CellCut<D> cut_of(unsigned upper) {
     std::array<std::uint8_t, D + 1> above{};
     std::size_t lower_count = 0;
     std::size_t upper_count = 0;
-    for (std::uint8_t i = 0; i <= D; ++i) {
-        (upper >> i & 1u) != 0 ? above[upper_count++] = i : below[lower_count++] = i;
+    for (unsigned i = 0; i <= D; ++i) {
+        const bool is_above = (upper >> i & 1u) != 0;
+        (is_above ? above[upper_count++] : below[lower_count++]) = static_cast<std::uint8_t>(i);
     }
     CellCut<D> cut;
     for (unsigned path = 0; lower_count > 0 && path < 1u << (D - 1);

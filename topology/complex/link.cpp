@@ -43,7 +43,7 @@ public:
 
 private:
     Index vertex_of(Index c, std::size_t i) const { return cells_[star_[c]][i]; }
-    static Index corner(Index c, std::size_t i) { return static_cast<Index>(c * (D + 1) + i); }
+    static Index corner(Index c, std::size_t i) { return static_cast<Index>(std::size_t{c} * (D + 1) + i); }
 
     void join_across_facets(Index c) {
         for (std::size_t i = 0; i <= D; ++i) {
