@@ -125,7 +125,7 @@ void die_with(pid_t parent) {
     out.close_now();
     reset_signals();
     die_with(parent);
-    detail::exchange_watch(nullptr);
+    const detail::WatchScope unwatched{nullptr}; // the parent is asked
     try {
         job([&far](const void* bytes, std::size_t size) {
             if (!transfer(write, far.number(), static_cast<const char*>(bytes), size)) {

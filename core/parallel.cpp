@@ -67,10 +67,7 @@ void parallel_for(std::size_t count, std::size_t grain,
     };
     std::vector<std::jthread> team;
     for (std::size_t i = 1; i < threads; ++i) {
-        team.emplace_back([&work, watch = detail::current_watch()] {
-            detail::exchange_watch(watch);
-            work();
-        });
+        team.emplace_back(watched_as_here([&work] { work(); }));
     }
     work();
     team.clear(); // joins

@@ -65,19 +65,16 @@ ProgressWatchPointer current_watch() {
     return watch;
 }
 
-ProgressWatchPointer exchange_watch(ProgressWatchPointer next) {
-    return std::exchange(watch, std::move(next));
+WatchScope::WatchScope(ProgressWatchPointer next) : before_{std::exchange(watch, std::move(next))} {}
+
+WatchScope::~WatchScope() {
+    watch = std::move(before_);
 }
 
 } // namespace detail
 
-ProgressScope::ProgressScope(Progress progress) : outer_{detail::current_watch()} {
-    detail::exchange_watch(std::make_shared<detail::ProgressWatch>(std::move(progress), outer_));
-}
-
-ProgressScope::~ProgressScope() {
-    detail::exchange_watch(std::move(outer_));
-}
+ProgressScope::ProgressScope(Progress progress)
+    : scope_{std::make_shared<detail::ProgressWatch>(std::move(progress), detail::current_watch())} {}
 
 void enter_stage(const std::string& stage) {
     if (detail::watch) {

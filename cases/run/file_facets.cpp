@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/file_facets.h"
 
-#include "cases/run/used_points.h"
 #include "slabhull/core/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <utility>
 
 namespace slabhull {
 
@@ -17,6 +17,12 @@ std::string group_name(const PatchList& groups, PatchNumber number) {
 }
 
 namespace {
+
+template<std::size_t N>
+std::array<Index, N> ascending(std::array<Index, N> facet) {
+    std::sort(facet.begin(), facet.end());
+    return facet;
+}
 
 /// "fluid", "ball": the groups that cells are in.
 std::string regions_of(const io::Soup& soup, std::size_t dimension) {
@@ -74,71 +80,42 @@ io::SimplexBlock cells_of_regions(const io::Soup& soup, const std::vector<std::s
 // --- facets of the file
 
 template<int D>
-FileFacets<D>::FileFacets(const io::Soup& soup, const std::vector<Index>& number)
-    : soup_{soup}, taken_(soup.simplices[D - 1].size(D - 1), false) {
-    const auto listed = renumbered<D - 1>(soup.simplices[D - 1], number);
-    for (std::size_t f = 0; f < listed.size(); ++f) {
-        Facet<D> key = listed[f];
-        std::sort(key.begin(), key.end());
-        if (key.back() == no_index) {
-            continue;
-        }
-        const auto [first, is_new] = facets_.emplace(key, f);
-        if (!is_new && group(f) != group(first->second)) {
-            ++repeated_[{group(first->second), group(f)}];
+void warn_of_repeated(const io::Soup& soup, const FileFacets<D>& facets, const Domain<D>& domain,
+                      const Listener& listener) {
+    std::map<std::pair<PatchNumber, PatchNumber>, std::size_t> repeated; // facets by both groups
+    for (const auto& [first, again] : domain.repeated_facets) {
+        if (facets.group[first] != facets.group[again]) {
+            ++repeated[{facets.group[first], facets.group[again]}];
         }
     }
-}
-
-template<int D>
-std::optional<std::size_t> FileFacets<D>::take(Facet<D> vertices) {
-    std::sort(vertices.begin(), vertices.end());
-    const auto found = facets_.find(vertices);
-    if (found == facets_.end()) {
-        return std::nullopt;
-    }
-    taken_[found->second] = true;
-    return found->second;
-}
-
-template<int D>
-std::optional<std::size_t> FileFacets<D>::find_left(Facet<D> vertices) const {
-    std::sort(vertices.begin(), vertices.end());
-    const auto found = facets_.find(vertices);
-    const bool is_left = found != facets_.end() && !taken_[found->second] && group(found->second) > 0;
-    return is_left ? std::optional{found->second} : std::nullopt;
-}
-
-template<int D>
-bool FileFacets<D>::any_left() const {
-    return std::any_of(facets_.begin(), facets_.end(),
-                       [this](const auto& each) { return !taken_[each.second] && group(each.second) > 0; });
-}
-
-template<int D>
-void FileFacets<D>::warn_of_repeated(const Listener& listener) const {
-    for (const auto& [groups, count] : repeated_) {
-        const auto name = [this](PatchNumber number) {
-            return number == 0 ? "no group" : "\"" + group_name(soup_.groups[D - 1], number) + "\"";
+    for (const auto& [groups, count] : repeated) {
+        const auto name = [&soup](PatchNumber number) {
+            return number == 0 ? "no group" : "\"" + group_name(soup.groups[D - 1], number) + "\"";
         };
         listener.warning(
             fmt::format("{}: {} facets are listed for {} and again for {}; they count in the first",
-                        soup_.path, count, name(groups.first), name(groups.second)));
+                        soup.path, count, name(groups.first), name(groups.second)));
     }
 }
 
 // --- groups inside
 
 template<int D>
-void InnerFacets<D>::collect(const FileFacets<D>& facets) {
-    for (Index c = 0; c < mesh_.cells.size(); ++c) {
+void InnerFacets<D>::collect(const FileFacets<D>& facets, std::span<const std::size_t> inner) {
+    std::map<Facet<D>, PatchNumber> groups; // of facets listed twice, the first counts
+    for (const std::size_t f : inner) {
+        groups.emplace(ascending(facets.vertices[f]), facets.group[f]);
+    }
+    std::erase_if(groups, [](const auto& each) { return each.second == 0; });
+    for (Index c = 0; c < mesh_.cells.size() && !groups.empty(); ++c) {
         for (std::size_t i = 0; i <= D; ++i) {
             const Index across = mesh_.neighbors[c][i];
             if (across == no_index || across < c) {
                 continue;
             }
-            if (const auto found = facets.find_left(outward_facet<D>(mesh_.cells[c], static_cast<int>(i)))) {
-                Interface& interface = interfaces_[facets.group(*found)];
+            const auto found = groups.find(ascending(outward_facet<D>(mesh_.cells[c], static_cast<int>(i))));
+            if (found != groups.end()) {
+                Interface& interface = interfaces_[found->second];
                 ++interface.facets;
                 interface.regions.insert({region(c), region(across)});
             }
@@ -183,12 +160,9 @@ void InnerFacets<D>::require_still(const DomainOptions& options) const {
 }
 
 template<int D>
-void InnerFacets<D>::tell(const FileFacets<D>& facets, const DomainOptions& options,
-                          const Listener& listener) {
-    if (!facets.any_left()) {
-        return;
-    }
-    collect(facets);
+void InnerFacets<D>::tell(const FileFacets<D>& facets, std::span<const std::size_t> inner,
+                          const DomainOptions& options, const Listener& listener) {
+    collect(facets, inner);
     if (interfaces_.empty()) {
         return;
     }
@@ -206,8 +180,8 @@ void InnerFacets<D>::tell(const FileFacets<D>& facets, const DomainOptions& opti
 
 template io::SimplexBlock cells_of_regions<2>(const io::Soup&, const std::vector<std::string>&);
 template io::SimplexBlock cells_of_regions<3>(const io::Soup&, const std::vector<std::string>&);
-template class FileFacets<2>;
-template class FileFacets<3>;
+template void warn_of_repeated<2>(const io::Soup&, const FileFacets<2>&, const Domain<2>&, const Listener&);
+template void warn_of_repeated<3>(const io::Soup&, const FileFacets<3>&, const Domain<3>&, const Listener&);
 template class InnerFacets<2>;
 template class InnerFacets<3>;
 

@@ -28,18 +28,15 @@ void take_facets(const io::Soup& soup, const std::vector<Index>& number, DomainI
         }
     }
     input.patches = soup.groups[D - 1];
+    input.facets_of_more = true; // a file may have more cells than the domain
 }
 
 /// What a file says of facets and the domain cannot hold.
 template<int D>
-void warn_of_facets(const io::Soup& soup, const io::SimplexBlock& cells, const std::vector<Index>& number,
+void warn_of_facets(const io::Soup& soup, const io::SimplexBlock& cells, const FileFacets<D>& facets,
                     const Domain<D>& domain, const DomainOptions& options, const Listener& listener) {
-    FileFacets<D> facets{soup, number};
-    for (const Facet<D>& facet : domain.mesh.boundary_facets) {
-        facets.take(facet);
-    }
-    facets.warn_of_repeated(listener);
-    InnerFacets<D>{soup, cells, domain.mesh}.tell(facets, options, listener);
+    warn_of_repeated(soup, facets, domain, listener);
+    InnerFacets<D>{soup, cells, domain.mesh}.tell(facets, domain.inner_facets, options, listener);
     if (domain.facets_without_patch > 0) {
         listener.warning(
             fmt::format("{}: {} of {} boundary facets are in no physical group; they become the patch "
@@ -97,11 +94,12 @@ Domain<D> domain_of_soup(const io::Soup& soup, const DomainOptions& options, con
         input.cell_numbers.push_back(block.tag(c));
     }
     take_facets(soup, used.number, input);
+    const FileFacets<D> facets{input.facets, input.facet_patch};
     Domain<D> domain = make_domain<D>(std::move(input), ids);
     for (const Patch& patch : domain.mesh.patches) {
         require_patch_name(patch.name, soup.path);
     }
-    warn_of_facets(soup, block, used.number, domain, options, listener);
+    warn_of_facets(soup, block, facets, domain, options, listener);
     warn_of_empty_groups<D>(soup, listener);
     return domain;
 }

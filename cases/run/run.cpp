@@ -332,12 +332,12 @@ private:
 
     void begin_writing(const Slab<D>& slab, const std::optional<Filled>& filled, SlabFiles& files) {
         files.written = std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred,
-                                   [this, &slab, &filled, &files] {
+                                   watched_as_here([this, &slab, &filled, &files] {
                                        write(slab, files);
                                        if (filled) {
                                            write(filled->mesh, files);
                                        }
-                                   });
+                                   }));
     }
 
     void write(const Filling<D>& filling, SlabFiles& files) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/embedding/cell_groups.h"
 
+#include "core/pieces.h"
 #include "slabhull/core/parallel.h"
 
 #include <algorithm>
@@ -131,18 +132,15 @@ template<int D>
 void CellGroups<D>::find_prisms(const std::vector<bool>& test) {
     const auto start = static_cast<std::size_t>(std::find(test.begin(), test.end(), true) - test.begin());
     const std::size_t all = test.size() - start;
-    std::vector<std::vector<std::uint8_t>> pieces((all + grain - 1) / grain);
-    parallel_for(all, grain, [&](std::size_t begin, std::size_t end) {
-        pieces[begin / grain] = PrismFinder<D>{all_cells_, test}.cut(start + begin, start + end);
-    });
+    const auto cut = [&](std::size_t begin, std::size_t end, std::vector<std::uint8_t>& counts) {
+        counts = PrismFinder<D>{all_cells_, test}.cut(start + begin, start + end);
+    };
     std::size_t c = start;
-    for (const auto& piece : pieces) {
-        for (const std::size_t count : piece) {
-            if (count > 0) {
-                add_group(c, count);
-            }
-            c += std::max<std::size_t>(count, 1);
+    for (const std::size_t count : parallel_gather<std::uint8_t>(all, grain, cut)) {
+        if (count > 0) {
+            add_group(c, count);
         }
+        c += std::max<std::size_t>(count, 1);
     }
 }
 

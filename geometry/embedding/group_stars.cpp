@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/embedding/group_stars.h"
 
+#include "core/pieces.h"
 #include "geometry/embedding/rounding.h"
 
 #include "slabhull/core/parallel.h"
@@ -380,20 +381,15 @@ bool is_covered(const CellGroups<D>& groups, Index v) {
 template<int D>
 std::vector<Index> star_centres(const CellGroups<D>& groups, std::size_t vertex_count) {
     constexpr std::size_t grain = 1 << 14;
-    std::vector<std::vector<Index>> pieces((vertex_count + grain - 1) / grain);
-    parallel_for(vertex_count, grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            const auto v = static_cast<Index>(k);
-            if (!groups.tested_groups_of(v).empty() && !is_covered(groups, v)) {
-                pieces[begin / grain].push_back(v);
-            }
-        }
-    });
-    std::vector<Index> centres;
-    for (const auto& piece : pieces) {
-        centres.insert(centres.end(), piece.begin(), piece.end());
-    }
-    return centres;
+    return parallel_gather<Index>(vertex_count, grain,
+                                  [&](std::size_t begin, std::size_t end, std::vector<Index>& centres) {
+                                      for (std::size_t k = begin; k < end; ++k) {
+                                          const auto v = static_cast<Index>(k);
+                                          if (!groups.tested_groups_of(v).empty() && !is_covered(groups, v)) {
+                                              centres.push_back(v);
+                                          }
+                                      }
+                                  });
 }
 
 template class GroupStars<2>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/hull_embedding.h"
 
+#include "core/pieces.h"
 #include "geometry/embedding/box_tree.h"
 #include "geometry/embedding/cell_groups.h"
 #include "geometry/embedding/cell_pairs.h"
@@ -106,14 +107,14 @@ private:
             round = first == 0 ? round : std::min<std::size_t>(2 * round, 1 << 14);
             const std::size_t grain = std::max<std::size_t>(1, round / 1024);
             const std::size_t items = std::min(round, count - first);
-            std::vector<Piece<D>> pieces((items + grain - 1) / grain);
-            parallel_for(items, grain, [&](std::size_t begin, std::size_t end) {
-                Piece<D>& piece = pieces[begin / grain];
+            const auto work_on = [&](std::size_t begin, std::size_t end, Piece<D>& piece) {
                 for (std::size_t k = begin; k < end && piece.pairs.crossings.size() <= limit_; ++k) {
                     work(first + k, piece);
                 }
-            });
-            std::for_each(pieces.begin(), pieces.end(), [&](const Piece<D>& piece) { add(piece); });
+            };
+            for (const Piece<D>& piece : parallel_pieces<Piece<D>>(items, grain, work_on)) {
+                add(piece);
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/meshing/cap_limits.h"
 
+#include "core/hash.h"
 #include "geometry/embedding/facet_names.h"
 
 #include "slabhull/core/error.h"
@@ -78,8 +79,7 @@ private:
     static std::uint64_t hash(const Cube& cube) {
         std::uint64_t value = 0;
         for (const std::int64_t each : cube) {
-            value = (value ^ static_cast<std::uint64_t>(each)) * 0x9e3779b97f4a7c15;
-            value ^= value >> 31;
+            value = combined_hash(value, static_cast<std::uint64_t>(each));
         }
         return value;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/surfaces/surface_readers.h"
 
+#include "core/hash.h"
 #include "io/files/coordinate.h"
 #include "io/files/file_cursor.h"
 
@@ -47,9 +48,7 @@ private:
     static std::uint64_t hash(const Point<3>& x) {
         std::uint64_t value = 0;
         for (const double each : x) {
-            value ^= std::bit_cast<std::uint64_t>(each + 0.0); // 0 for -0
-            value *= 0x9e3779b97f4a7c15;
-            value ^= value >> 29;
+            value = combined_hash(value, std::bit_cast<std::uint64_t>(each + 0.0)); // 0 for -0
         }
         return value;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/check_filling.h"
 
+#include "core/pieces.h"
 #include "slab/check/check_shape.h"
 #include "slab/check/findings.h"
 #include "slabhull/geometry/simplex_sign.h"
@@ -202,15 +203,13 @@ private:
     };
 
     void check_cells() {
-        std::vector<Sums> pieces((report_.cells + cells_per_survey - 1) / cells_per_survey);
-        parallel_for(report_.cells, cells_per_survey, [&](std::size_t begin, std::size_t end) {
-            Sums& sums = pieces[begin / cells_per_survey];
+        const auto survey_piece = [this](std::size_t begin, std::size_t end, Sums& sums) {
             for (std::size_t c = begin; c < end; ++c) {
                 survey(static_cast<Index>(c), sums);
             }
-        });
+        };
         Sums all;
-        for (const Sums& piece : pieces) {
+        for (const Sums& piece : parallel_pieces<Sums>(report_.cells, cells_per_survey, survey_piece)) {
             all.volume.add(piece.volume);
             all.smallest = std::min(all.smallest, piece.smallest);
             all.time = {std::min(all.time[0], piece.time[0]), std::max(all.time[1], piece.time[1])};

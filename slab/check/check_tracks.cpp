@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 namespace slabhull {
@@ -80,12 +81,10 @@ std::vector<Entity> track_entities(TrackId track, std::span<const Index> vertice
     return entities;
 }
 
-/// `track` is the points of one, by time. One that never is on the side may begin or end in the slab: caps
-/// are meshed anew, and their vertices come and go.
-bool is_whole(std::span<const TrackPoint> track, const std::array<double, 2>& slab, bool inside) {
+/// `track` is the points of one, by time.
+bool is_whole(std::span<const TrackPoint> track, const std::array<double, 2>& slab) {
     const auto same_time = [](const TrackPoint& a, const TrackPoint& b) { return a.time == b.time; };
-    const bool leads_through = track.front().time == slab[0] && track.back().time == slab[1];
-    return (inside || leads_through) &&
+    return track.front().time == slab[0] && track.back().time == slab[1] &&
            std::adjacent_find(track.begin(), track.end(), same_time) == track.end();
 }
 
@@ -100,7 +99,8 @@ void each_track(const std::vector<TrackPoint>& points, const Visit& visit) {
     }
 }
 
-/// `track` is the points of one, by time.
+/// `track` is the points of one, by time. One that never is on the side (`inside`) may begin or end in the
+/// slab: caps are meshed anew, and their vertices come and go.
 void report_track(std::span<const TrackPoint> track, const std::array<double, 2>& slab, bool inside,
                   Findings& findings) {
     for (std::size_t k = 1; k < track.size(); ++k) {
@@ -182,16 +182,20 @@ std::vector<TrackId> boundary_tracks(const HullView<D>& view, const std::vector<
 /// Vertices inside a cap may have tracks, but not those of its boundary.
 template<int D>
 void check_cap_vertices(const HullView<D>& view, const std::vector<std::uint8_t>& use, Findings& findings) {
-    const std::vector<TrackId> of_boundary = boundary_tracks(view, use);
+    std::optional<std::vector<TrackId>> of_boundary; // seldom needed
     each_id(view.track, [&](std::size_t v, TrackId track) {
         const auto vertex = static_cast<Index>(v);
         if ((use[v] & on_its_boundary) != 0 && track < 0) {
             findings.vertex(Defect::untracked_boundary, vertex,
                             "a cap meets the side there, but it has no track");
-        } else if (use[v] == in_a_cap && track >= 0 &&
-                   std::binary_search(of_boundary.begin(), of_boundary.end(), track)) {
-            findings.vertex(Defect::stray_track, vertex,
-                            fmt::format("inside a cap, but on track {} of the boundary", track));
+        } else if (use[v] == in_a_cap && track >= 0) {
+            if (!of_boundary) {
+                of_boundary = boundary_tracks(view, use);
+            }
+            if (std::binary_search(of_boundary->begin(), of_boundary->end(), track)) {
+                findings.vertex(Defect::stray_track, vertex,
+                                fmt::format("inside a cap, but on track {} of the boundary", track));
+            }
         }
     });
 }
@@ -210,24 +214,24 @@ std::vector<Index> cap_cells_at_side(const HullView<D>& view) {
 
 template<int D>
 void check_tracks(const HullView<D>& view, Findings& findings) {
-    const std::vector<std::uint8_t> on_side =
-        mark_vertices(view, 1, [&](std::size_t c) { return !view.in_cap(c); });
-    const auto inside = [&](std::span<const TrackPoint> track) {
-        return std::none_of(track.begin(), track.end(),
-                            [&](const TrackPoint& p) { return on_side[p.vertex] != 0; });
-    };
     const std::vector<std::array<TrackId, 2>> parts = parts_of_range(view.track);
     std::vector<std::vector<TrackPoint>> faulty(parts.size());
     parallel_for(parts.size(), 1, [&](std::size_t part, std::size_t) {
         each_track(sorted_track_points(view, parts[part]), [&](std::span<const TrackPoint> track) {
-            if (!is_whole(track, view.time, inside(track))) {
+            if (!is_whole(track, view.time)) {
                 faulty[part].insert(faulty[part].end(), track.begin(), track.end());
             }
         });
     });
+    std::vector<std::uint8_t> on_side; // of the vertices; only asked for what is not whole
     for (const std::vector<TrackPoint>& points : faulty) {
+        if (!points.empty() && on_side.empty()) {
+            on_side = mark_vertices(view, 1, [&](std::size_t c) { return !view.in_cap(c); });
+        }
         each_track(points, [&](std::span<const TrackPoint> track) {
-            report_track(track, view.time, inside(track), findings);
+            const bool inside = std::none_of(track.begin(), track.end(),
+                                             [&](const TrackPoint& p) { return on_side[p.vertex] != 0; });
+            report_track(track, view.time, inside, findings);
         });
     }
 }

@@ -236,8 +236,20 @@ private:
         return facets;
     }
 
+    void find_repeated(const std::vector<FacetByVertices>& facets) {
+        std::size_t first = 0;
+        for (std::size_t k = 1; k < facets.size(); ++k) {
+            if (facets[k].first == facets[first].first) {
+                domain_.repeated_facets.push_back({facets[first].second, facets[k].second});
+            } else {
+                first = k;
+            }
+        }
+    }
+
     void find_patches() {
         std::vector<FacetByVertices> facets = facets_by_vertices();
+        find_repeated(facets);
         std::vector<bool> bounds(input_.facets.size(), false);
         for (Index c = 0; c < mesh_.cells.size(); ++c) {
             for (int i = 0; i <= D; ++i) {
@@ -289,7 +301,7 @@ private:
         for (std::size_t k = 0; k < facets.size(); ++k) {
             if (inside[k]) {
                 domain_.inner_facets.push_back(facets[k].second);
-            } else {
+            } else if (!input_.facets_of_more) {
                 stray.add(facets[k].second);
             }
         }

@@ -32,7 +32,7 @@ void March<D>::require_times(const std::vector<double>& times) const {
 template<int D>
 Slab<D> March<D>::propose(std::vector<double> times, StageClock& clock) const {
     require_times(times);
-    const ProgressScope scope{progress_ ? progress_ : [](const std::string&) { return true; }};
+    const ProgressScope scope{progress_};
     return build_slab<D>(state_.cap, state_.boundary, state_.slab, std::move(times), settings_, state_.ids,
                          clock);
 }
@@ -46,7 +46,7 @@ Slab<D> March<D>::propose(std::vector<double> times) const {
 template<int D>
 Slab<D> March<D>::build(std::vector<double> times, StageClock& clock) {
     require_times(times);
-    const ProgressScope scope{progress_ ? progress_ : [](const std::string&) { return true; }};
+    const ProgressScope scope{progress_};
     return build_slab<D>(std::move(state_.cap), state_.boundary, state_.slab, std::move(times), settings_,
                          state_.ids, clock);
 }

@@ -119,3 +119,19 @@ TEST_CASE("a child is not asked: its parent is") {
     });
     CHECK(answer.text == "done");
 }
+
+TEST_CASE("another thread's work is watched where it is handed over so") {
+    const ProgressScope scope{patience(0)};
+    bool stopped = false;
+    const auto work = [&stopped] {
+        try {
+            go_on();
+        } catch (const Interrupted&) {
+            stopped = true;
+        }
+    };
+    std::thread{work}.join();
+    CHECK_FALSE(stopped);
+    std::thread{watched_as_here(work)}.join();
+    CHECK(stopped);
+}

@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <set>
 
@@ -176,6 +177,9 @@ TEMPLATE_TEST_CASE_SIG("what is wrong in the arrays is named by the user's numbe
         input.facets.push_back(stray);
         input.facet_patch.push_back(5);
         input.facet_numbers.push_back(static_cast<std::int64_t>(2000 + f));
+        DomainInput<D> of_more = input;
+        of_more.facets_of_more = true;
+        CHECK(make_domain<D>(of_more).mesh.boundary_patch == make_domain<D>(sound).mesh.boundary_patch);
         require_refused(input, "not facets of any cell", "facet", {static_cast<std::int64_t>(2000 + f)});
     }
     SECTION("a negative patch") {
@@ -213,4 +217,18 @@ TEMPLATE_TEST_CASE_SIG("what is wrong in the arrays is named by the user's numbe
         parts.cells = {first, second};
         CHECK_THROWS_AS(make_domain<D>(parts), InputError);
     }
+}
+
+TEMPLATE_TEST_CASE_SIG("of a facet that is listed twice the first counts, and both are told", "",
+                       ((int D), D), 2, 3) {
+    DomainInput<D> input = box_around_body<D>();
+    const std::size_t again = input.facets.size();
+    input.facets.push_back(input.facets[2]);
+    std::swap(input.facets.back()[0], input.facets.back()[1]);
+    input.facet_patch.push_back(9);
+    input.facet_numbers.push_back(7);
+    const Domain<D> domain = make_domain<D>(input);
+    CHECK(domain.repeated_facets == std::vector<std::array<std::size_t, 2>>{{2, again}});
+    CHECK(domain.mesh.patches == PatchList{{5, "body"}, {6, "boundary"}});
+    CHECK(domain.inner_facets.empty());
 }

@@ -46,9 +46,8 @@ template<class Work>
 void run_on_stack(std::size_t bytes, const Work& work) {
     struct Task {
         const Work& work;
-        detail::ProgressWatchPointer watch;
         std::exception_ptr failure;
-    } task{work, detail::current_watch(), nullptr};
+    } task{work, nullptr};
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
     pthread_attr_setstacksize(&attributes, bytes);
@@ -57,7 +56,6 @@ void run_on_stack(std::size_t bytes, const Work& work) {
         &thread, &attributes,
         [](void* argument) -> void* {
             Task& mine = *static_cast<Task*>(argument);
-            detail::exchange_watch(mine.watch);
             try {
                 mine.work();
             } catch (...) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace slabhull {
 
@@ -25,8 +26,18 @@ class ProgressWatch;
 using ProgressWatchPointer = std::shared_ptr<ProgressWatch>;
 /// What this thread's work is watched by; null for nothing.
 ProgressWatchPointer current_watch();
-/// Makes it so, for threads that do another one's work. Gives back what was there.
-ProgressWatchPointer exchange_watch(ProgressWatchPointer watch);
+
+/// While it lives, this thread's work is watched by `watch`.
+class WatchScope {
+public:
+    explicit WatchScope(ProgressWatchPointer watch);
+    WatchScope(const WatchScope&) = delete;
+    WatchScope& operator=(const WatchScope&) = delete;
+    ~WatchScope();
+
+private:
+    ProgressWatchPointer before_;
+};
 } // namespace detail
 
 /// While it lives, what this thread does is watched by `progress`: parallel loops and child processes that it
@@ -35,13 +46,19 @@ ProgressWatchPointer exchange_watch(ProgressWatchPointer watch);
 class ProgressScope {
 public:
     explicit ProgressScope(Progress progress);
-    ProgressScope(const ProgressScope&) = delete;
-    ProgressScope& operator=(const ProgressScope&) = delete;
-    ~ProgressScope();
 
 private:
-    detail::ProgressWatchPointer outer_;
+    detail::WatchScope scope_;
 };
+
+/// The same work for another thread to do, watched there as this thread is watched now.
+template<class Work>
+auto watched_as_here(Work work) {
+    return [work = std::move(work), watch = detail::current_watch()] {
+        const detail::WatchScope scope{watch};
+        return work();
+    };
+}
 
 /// Names what is done from here on.
 void enter_stage(const std::string& stage);

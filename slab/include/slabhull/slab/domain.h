@@ -8,6 +8,7 @@
 #include "slabhull/slab/stitch.h"
 #include "slabhull/topology/spatial_mesh.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -29,6 +30,9 @@ struct DomainInput {
     std::vector<PatchNumber> facet_patch; ///< of each of these; not negative
     PatchList patches; ///< names; a patch without one goes by its number, and one without facets is left out
 
+    /// The facets are those of a larger mesh: those that no cell here has are passed over, not refused.
+    bool facets_of_more = false;
+
     std::string where = "domain";            ///< put first in messages, such as the name of the file
     std::vector<std::int64_t> cell_numbers;  ///< the user's number of each cell; empty: from 0
     std::vector<std::int64_t> facet_numbers; ///< the same for `facets`
@@ -44,6 +48,8 @@ struct Domain {
     IdCounter ids;                         ///< what the first slab counts from
     std::size_t facets_without_patch = 0;  ///< boundary facets that became the patch "boundary"
     std::vector<std::size_t> inner_facets; ///< of the input: inside the domain, so without effect; ascending
+    /// Facets that the input has twice: the first, which counts, and another. By their vertices.
+    std::vector<std::array<std::size_t, 2>> repeated_facets;
 };
 
 /// The domain that a mesh is, with points and cells in their order.

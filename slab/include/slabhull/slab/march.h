@@ -59,9 +59,10 @@ public:
 
     /// Tells `progress` what goes on in propose() and build(), and stops them within a second when it returns
     /// false: they throw Interrupted, and the march is as before.
-    void on_progress(Progress progress) { progress_ = std::move(progress); }
+    void on_progress(Progress progress) { progress_ = progress ? std::move(progress) : goes_on; }
 
 private:
+    static bool goes_on(const std::string&) { return true; }
     void require_times(const std::vector<double>& times) const;
     /// Tells the initial cap from others; -1 for one without vertices.
     PersistentId first_id() const { return state_.cap.vertex_ids.empty() ? -1 : state_.cap.vertex_ids[0]; }
@@ -69,7 +70,7 @@ private:
     MarchState<D> state_;
     SlabSettings<D> settings_;
     PersistentId first_id_;
-    Progress progress_;
+    Progress progress_ = goes_on;
 };
 
 extern template MarchState<2> march_from<2>(Domain<2>, double);
