@@ -2,7 +2,7 @@
 #include "cases/tables/displacement_files.h"
 
 #include "cases/tables/displacement_table.h"
-#include "cases/tables/point_finder.h"
+#include "geometry/basics/point_finder.h"
 
 #include "slabhull/core/error.h"
 

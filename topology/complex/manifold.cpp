@@ -8,6 +8,7 @@
 #include "topology/complex/cell_lists.h"
 #include "topology/complex/facet_pairing.h"
 #include "topology/complex/link.h"
+#include "topology/complex/repeated_vertex.h"
 #include "topology/complex/sorted_cell.h"
 #include "topology/complex/star_counter.h"
 #include "topology/complex/union_find.h"
@@ -47,13 +48,6 @@ void each_vertex(const std::array<Index, N>& cell, const Visit& visit) {
             visit(cell[i]);
         }
     }
-}
-
-template<std::size_t N>
-bool repeats_a_vertex(const std::array<Index, N>& cell) {
-    std::size_t distinct = 0;
-    each_vertex(cell, [&](Index) { ++distinct; });
-    return distinct < N;
 }
 
 template<std::size_t N>
