@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/topology/adjacency.h"
-#include "core/hash.h"
 
-#include "slabhull/core/parallel.h"
+#include "core/hash.h"
+#include "core/pieces.h"
 #include "topology/complex/cell_lists.h"
 #include "topology/complex/sorted_cell.h"
 
@@ -232,22 +232,15 @@ Adjacency<D> build_adjacency(std::span<const Simplex<D>> cells, std::size_t vert
     const CellLists buckets = buckets_by_smallest_vertex<D>(cells, bucket_count);
     Adjacency<D> result;
     result.neighbors.resize(cells.size()); // each half-facet is in one bucket, which writes its entry
-    std::vector<std::vector<FacetDefect<D>>> defects(bucket_count / buckets_per_piece + 1);
-    parallel_for(bucket_count, buckets_per_piece, [&](std::size_t begin, std::size_t end) {
-        BucketMatcher<D> matcher{cells, buckets, result};
-        for (std::size_t bucket = begin; bucket < end; ++bucket) {
-            matcher.match(bucket);
-        }
-        defects[begin / buckets_per_piece] = std::move(matcher.defects);
-    });
-    std::size_t defect_count = 0;
-    for (const std::vector<FacetDefect<D>>& found : defects) {
-        defect_count += found.size();
-    }
-    result.defects.reserve(defect_count);
-    for (std::vector<FacetDefect<D>>& found : defects) {
-        std::move(found.begin(), found.end(), std::back_inserter(result.defects));
-    }
+    result.defects = parallel_gather<FacetDefect<D>>(
+        bucket_count, buckets_per_piece,
+        [&](std::size_t begin, std::size_t end, std::vector<FacetDefect<D>>& defects) {
+            BucketMatcher<D> matcher{cells, buckets, result};
+            for (std::size_t bucket = begin; bucket < end; ++bucket) {
+                matcher.match(bucket);
+            }
+            defects = std::move(matcher.defects);
+        });
     return result;
 }
 
