@@ -47,13 +47,13 @@ Json shares_as_json(const StageClock& clock) {
     double meshing = 0;
     double all = 0;
     for (const auto& [stage, passed] : clock.stages()) {
-        meshing += stage == "cap meshing" ? passed : 0;
+        meshing += stage == cap_meshing_stage ? passed : 0;
         all += passed;
     }
     Json shares = Json::object();
     if (meshing > 0) {
         for (const auto& [stage, passed] : clock.stages()) {
-            if (stage != "cap meshing") {
+            if (stage != cap_meshing_stage) {
                 shares[stage] = passed / meshing;
             }
         }
@@ -248,8 +248,7 @@ private:
     void warn_of_size(std::size_t layers) const {
         constexpr double many = 1e8;
         const auto facets = march_->state().boundary.facets().size();
-        const double simplices = static_cast<double>(facets) * static_cast<double>(layers) *
-                                 static_cast<double>(simplices_per_prism(case_.split));
+        const double simplices = side_simplex_count(facets, layers, case_.split);
         if (!case_.layers_follow_motion() && simplices > many) {
             listener_.warning(fmt::format("slab {}: {} facets in {} layers make a side of {:.2g} simplices",
                                           march_->state().slab, facets, layers, simplices));
