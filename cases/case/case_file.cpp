@@ -5,6 +5,7 @@
 
 #include "slabhull/core/error.h"
 #include "slabhull/io/checksum.h"
+#include "slabhull/slab/layers.h"
 
 #include "cases/case/key_table.h"
 #include "cases/case/motion_keys.h"

@@ -6,7 +6,7 @@
 #include "slabhull/geometry/trajectory.h"
 #include "slabhull/io/formats.h"
 #include "slabhull/io/space_time_files.h"
-#include "slabhull/slab/slab.h"
+#include "slabhull/slab/cap_reuse.h"
 #include "slabhull/topology/prism_split.h"
 
 #include <array>
