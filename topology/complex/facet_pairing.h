@@ -14,7 +14,4 @@ namespace slabhull {
 template<int D>
 bool pairs_facets(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> claimed);
 
-extern template bool pairs_facets<2>(std::span<const Simplex<2>>, std::span<const Neighbors<2>>);
-extern template bool pairs_facets<3>(std::span<const Simplex<3>>, std::span<const Neighbors<3>>);
-
 } // namespace slabhull

@@ -35,11 +35,4 @@ struct Checkpoint {
 template<int D>
 Checkpoint<D> read_checkpoint(const std::filesystem::path& path);
 
-extern template void write_checkpoint<2>(const std::filesystem::path&, const MarchState<2>&,
-                                         const CheckpointFiles&);
-extern template void write_checkpoint<3>(const std::filesystem::path&, const MarchState<3>&,
-                                         const CheckpointFiles&);
-extern template Checkpoint<2> read_checkpoint<2>(const std::filesystem::path&);
-extern template Checkpoint<3> read_checkpoint<3>(const std::filesystem::path&);
-
 } // namespace slabhull

@@ -31,7 +31,4 @@ SlabSettings<D> settings_of(const Case& the_case, const Boundary<D>& boundary) {
     return case_settings<D>(the_case, boundary).slab;
 }
 
-extern template CaseSettings<2> case_settings<2>(const Case&, const Boundary<2>&);
-extern template CaseSettings<3> case_settings<3>(const Case&, const Boundary<3>&);
-
 } // namespace slabhull

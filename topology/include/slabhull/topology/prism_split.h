@@ -141,9 +141,4 @@ constexpr std::uint8_t template_number(const Quads<D>& quads) {
 template<int D>
 std::span<const PrismTemplate<D>> templates_of(Split split);
 
-extern template PrismTemplate<2> cone_template<2>(int, const Quads<2>&);
-extern template PrismTemplate<3> cone_template<3>(int, const Quads<3>&);
-extern template std::span<const PrismTemplate<2>> templates_of<2>(Split);
-extern template std::span<const PrismTemplate<3>> templates_of<3>(Split);
-
 } // namespace slabhull

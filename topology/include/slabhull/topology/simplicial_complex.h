@@ -200,10 +200,4 @@ std::vector<std::vector<VertexId>> loops(const SimplicialComplex<1>& curve);
 /// The loops of boundary edges of a 2-complex, in its own vertices; the cells are to the right.
 std::vector<std::vector<VertexId>> boundary_loops(const SimplicialComplex<2>& surface);
 
-extern template PartOfComplex<1, CellId> part_of<1>(const SimplicialComplex<1>&, std::span<const CellId>);
-extern template PartOfComplex<2, CellId> part_of<2>(const SimplicialComplex<2>&, std::span<const CellId>);
-extern template PartOfComplex<3, CellId> part_of<3>(const SimplicialComplex<3>&, std::span<const CellId>);
-extern template PartOfComplex<1, HalfFacetId<2>> boundary_of<2>(const SimplicialComplex<2>&);
-extern template PartOfComplex<2, HalfFacetId<3>> boundary_of<3>(const SimplicialComplex<3>&);
-
 } // namespace slabhull
