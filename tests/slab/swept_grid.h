@@ -91,4 +91,14 @@ SlabParts<D> next_slab(SpatialMesh<D> initial, std::vector<double> times, const 
     return parts;
 }
 
+/// A slow flow that bends every prism.
+template<int D>
+MotionPointer<D> bending_flow() {
+    if constexpr (D == 2) {
+        return formula_velocity<2>({"0.03*y*y-0.1*t", "0.05*x"}, {});
+    } else {
+        return formula_velocity<3>({"0.03*y*z-0.1*t", "0.05*x", "0.02*x*y"}, {});
+    }
+}
+
 } // namespace slabhull::specimens
