@@ -33,15 +33,15 @@ struct PlaceHash {
     }
 };
 
-/// The points that stay, found by where they are: in boxes of twice the tolerance, so that a point's
-/// surroundings reach into two boxes along each axis at most.
+/// The points kept so far, hashed by boxes of twice the tolerance: so the points within the tolerance of a
+/// point lie in at most two boxes along each axis.
 class PointGrid {
 public:
     PointGrid(const io::Soup& soup, double tolerance)
         : points_{soup.points}, times_{has_time_as_coordinate(soup) ? nullptr : soup_times(soup)},
           tolerance_{tolerance} {}
 
-    /// An earlier one that is near, or v itself, which stays then.
+    /// A kept point within the tolerance of v; v itself, kept from now on, when there is none.
     Index keep(Index v) {
         const Place at = place(v);
         for (unsigned corner = 0; corner < (tolerance_ > 0 ? 16U : 1U); ++corner) {

@@ -89,8 +89,8 @@ int fill_file(const FillCommand& command, io::Soup& soup) {
 int fill(const FillCommand& command) {
     set_thread_count(command.threads);
     if (command.method != "march") {
-        throw UsageError{fmt::format("--method: \"march\" is the only one that this version has, not \"{}\"",
-                                     command.method)};
+        throw UsageError{
+            fmt::format("--method: this version has only \"march\", not \"{}\"", command.method)};
     }
     io::Soup soup = read_named(command.hull, command.from);
     const MeshKind kind = kind_of(soup);

@@ -53,7 +53,7 @@ void take_facets(const io::Soup& soup, const Array<Index>& number, DomainInput<D
     input.facets_of_more = true; // a file may have more cells than the domain
 }
 
-/// What a file says of facets and the domain cannot hold.
+/// Warns of groups of facets that the domain cannot hold.
 template<int D>
 void warn_of_facets(const io::Soup& soup, const io::SimplexBlock& cells, const FileFacets<D>& facets,
                     const Domain<D>& domain, const DomainOptions& options, const Listener& listener) {

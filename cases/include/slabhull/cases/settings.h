@@ -9,11 +9,11 @@
 
 namespace slabhull {
 
-/// What a march needs of a case, and how the files of displacements fitted the boundary.
+/// The settings of a march, and how the displacement files fitted the boundary.
 template<int D>
 struct CaseSettings {
     SlabSettings<D> slab;
-    std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move as such files say
+    std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move by displacement files
 };
 
 /// How a case wants its caps meshed.

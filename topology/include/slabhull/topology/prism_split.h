@@ -67,7 +67,7 @@ constexpr std::array<std::size_t, 2> quad_corners(std::size_t q) {
     return {D == 3 && q == 0 ? 1u : 0u, D == 2 || q == 2 ? 1u : 2u};
 }
 
-/// A split in words that the rest follows from: a cone from an apex over the prism's boundary.
+/// What defines a split: a cone from an apex over the boundary of the prism. The rest follows.
 struct SplitRecipe {
     enum class Apex : std::uint8_t {
         corner,       ///< the bottom corner at which all diagonals of its quadrilaterals start
@@ -112,7 +112,7 @@ struct PrismTemplate {
     /// the slot across[c][i] - outside.
     static constexpr std::uint8_t outside = 16;
     std::vector<Slots> across;
-    /// The cell with the facet of each slot; `no_cell` for pieces that there are not.
+    /// The cell with the facet of each slot; `no_cell` for pieces that do not exist.
     static constexpr std::uint8_t no_cell = 0xFF;
     std::array<std::uint8_t, slots> cell_at;
 };

@@ -64,7 +64,7 @@ public:
     static constexpr std::size_t edges_per_cell = D * (D + 1) / 2;
 
     /// The complex of a soup of cells. Vertices that no cell uses are allowed.
-    /// Throws GeometryError, with the cells as entities, for whatever is no oriented manifold: cells that
+    /// Throws GeometryError, with the cells as entities, if this is not an oriented manifold: cells that
     /// name a vertex twice or one that does not exist, doubles, facets in three or more cells or in two that
     /// disagree in orientation, vertices whose link is not a sphere or a disc. Nothing is mended.
     /// Cost: near-linear, that of build_adjacency() and a walk around every vertex.
