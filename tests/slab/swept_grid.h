@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/stitch.h"
 #include "slabhull/slab/sweep.h"
 #include "specimens.h"
