@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/core/child_process.h"
 
+#include "core/sanitizer_fork.h"
+
 #include "slabhull/core/error.h"
 #include "slabhull/core/progress.h"
 
@@ -181,6 +183,7 @@ ChildEnd run_in_child(const std::function<void(const Send&)>& job,
     constexpr int roomy = 1 << 20; // fewer switches between the two; no harm when refused
     fcntl(out.number(), F_SETPIPE_SZ, roomy);
 
+    prepare_sanitizer_for_fork();
     const pid_t parent = getpid();
     const pid_t id = fork();
     if (id < 0) {

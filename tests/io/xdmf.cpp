@@ -230,7 +230,8 @@ TEST_CASE("XDMF with its values as text is read: XY, attributes of each centre, 
     CHECK(values<Array<double>>(soup.find_field_data("c")) == Array<double>{0.25});
 }
 
-TEST_CASE("Mixed cells are parted by dimension, keep their numbers, and data go with the largest", "[io]") {
+TEST_CASE("Mixed cells of XDMF are parted by dimension, keep their numbers, and data go with the largest",
+          "[io]") {
     const std::string mixed = scratch::replaced(
         scratch::replaced(text_file, "Triangle\" NumberOfElements=\"2", "Mixed\" NumberOfElements=\"4"),
         "\"2 3\" NumberType=\"Int\" Precision=\"8\" Format=\"XML\">0 1 2\n2 1 3",
