@@ -43,9 +43,7 @@ io::Soup read_text(const std::string& text) {
 }
 
 std::string text_refusal(const std::string& from, const std::string& to) {
-    const scratch::Folder folder;
-    return scratch::refusal(io::read_xdmf,
-                            scratch::put(folder / "a.xdmf", scratch::replaced(text_file, from, to)));
+    return scratch::refusal(io::read_xdmf, "a.xdmf", scratch::replaced(text_file, from, to));
 }
 
 /// How a dataset of an independent writer is made.
