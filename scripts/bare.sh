@@ -17,6 +17,7 @@ cannot() {
 suite=bookworm
 repository=$PWD
 ((EUID == 0)) || cannot "needs root"
+[[ -d .git ]] || cannot "needs a repository, of which it makes clones"
 command -v debootstrap >/dev/null || cannot "needs debootstrap"
 unshare --mount true 2>/dev/null || cannot "no mounts of its own are allowed here"
 mirror=$(apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |

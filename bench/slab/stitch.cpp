@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stitching, caps given: ids, points, cells and adjacency of the hull. Each hull is compared with the
 // adjacency of its soup before it is timed.
-#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/stitch.h"
+#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/topology/adjacency.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The fuzzers' seeds, what they found, and damage done in turn to every byte: through the code that is
 // fuzzed.
+#include "core/rounds.h"
 #include "fuzz/memory_meter.h"
 #include "fuzz/readers.h"
 #include "fuzz/soup_faults.h"
@@ -88,17 +89,13 @@ TEST_CASE("Every seed and every file that once broke a reader is refused, or rea
 }
 
 TEST_CASE("Ten thousand bytes of each format's files, changed one at a time, break no reader", "[readers]") {
-#ifdef __SANITIZE_ADDRESS__ // at a fifteenth of the speed; the fuzzers have the sanitizers, too
-    constexpr int rounds = 1000;
-#else
-    constexpr int rounds = 10000;
-#endif
+    constexpr int count = rounds(10000); // the fuzzers have the sanitizers, too
     for (const fuzz::Reader& reader : fuzz::readers()) {
         CAPTURE(reader.name);
         std::vector<std::string> files = valid_files(reader);
         std::mt19937 random{20261122};
         int refused = 0;
-        for (int round = 0; round < rounds; ++round) {
+        for (int round = 0; round < count; ++round) {
             std::string& bytes = files[static_cast<std::size_t>(round) % files.size()];
             const std::size_t place = random() % bytes.size();
             const char was = bytes[place];
@@ -111,8 +108,8 @@ TEST_CASE("Ten thousand bytes of each format's files, changed one at a time, bre
             }
             bytes[place] = was;
         }
-        CHECK(refused > rounds / 20);
-        CHECK(refused < rounds);
+        CHECK(refused > count / 20);
+        CHECK(refused < count);
     }
 }
 

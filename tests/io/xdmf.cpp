@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // With HDF5's own library as the independent writer of what may be in a file.
+#include "core/rounds.h"
 #include "io/scratch.h"
 #include "io/soups.h"
 #include "io/specimens.h"
@@ -357,11 +358,7 @@ TEST_CASE("XDMF or its HDF5 file damaged or cut short is refused or read as a co
         const io::Soup soup = io::read_xdmf(path); // outside CHECK, which would catch what it throws
         CHECK(is_consistent(soup));
     };
-#ifdef __SANITIZE_ADDRESS__ // under which a process takes long to start, and each file takes one
-    constexpr int rounds = 20;
-#else
-    constexpr int rounds = 60;
-#endif
+    constexpr int count = rounds(60); // each file takes a process
     const Specimen packed{{H5T_IEEE_F64BE, {2}, true, 9}};
     const scratch::Folder folder;
     io::write_xdmf(folder / "a.xdmf", specimens::Grid{3, 2}.columns());
@@ -369,10 +366,10 @@ TEST_CASE("XDMF or its HDF5 file damaged or cut short is refused or read as a co
         const std::string xml = scratch::bytes_of(path);
         const auto data = std::filesystem::path{path}.replace_extension(".h5");
         const std::string bytes = scratch::bytes_of(data);
-        CHECK(scratch::survive_damage(read, xml, path, 3 * rounds) > 0);
+        CHECK(scratch::survive_damage(read, xml, path, 3 * count) > 0);
         scratch::put(path, xml);
         const auto read_beside = [&](const std::filesystem::path&) { read(path); };
-        CHECK(scratch::survive_damage(read_beside, bytes, data, rounds) > 0);
+        CHECK(scratch::survive_damage(read_beside, bytes, data, count) > 0);
         for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 30) {
             CHECK_FALSE(scratch::refusal(read_beside, scratch::put(data, bytes.substr(0, size))).empty());
         }

@@ -2,6 +2,7 @@
 // The proof by stars and groups against the exact test of every pair of cells, on random hulls.
 #include "slabhull/geometry/hull_embedding.h"
 
+#include "core/rounds.h"
 #include "geometry/embedding/cell_pairs.h"
 #include "slab/specimens.h"
 #include "slabhull/cases/initial.h"
@@ -125,7 +126,7 @@ Soup<D> shaken(Soup<D> hull, Random& random, double reach) {
 
 TEMPLATE_TEST_CASE_SIG("200 random sound hulls are proven, as by pairs", "[embedding]", ((int D), D), 2, 3) {
     Random random{17};
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < rounds(100); ++k) {
         const Soup<D> hull = with_moved_body<D>(random, 0.3, 0.2, 0.03);
         const HullEmbedding<D> found = examine(hull);
         REQUIRE(found.crossings.empty());
@@ -137,7 +138,7 @@ TEMPLATE_TEST_CASE_SIG("200 random sound hulls are proven, as by pairs", "[embed
 TEMPLATE_TEST_CASE_SIG("20 random bodies that go through walls or themselves are found, as by pairs",
                        "[embedding]", ((int D), D), 2, 3) {
     Random random{23};
-    for (int planted = 0; planted < 20;) {
+    for (int planted = 0; planted < rounds(20);) {
         const bool through_itself = planted % 2 == 0;
         const Soup<D> hull = through_itself ? with_moved_body<D>(random, 3, 0.1, 0.1)
                                             : with_moved_body<D>(random, 0.1, 3, 0.1);
