@@ -2,8 +2,10 @@
 #pragma once
 
 #include "slabhull/core/array.h"
+#include "slabhull/core/column.h"
 #include "slabhull/core/index.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -14,10 +16,11 @@
 
 namespace slabhull {
 
-/// A list of persistent ids or tracks. They mostly come in runs, of consecutive ids or of no_track: a run
-/// costs 24 bytes, whatever its length. A list that has no such order is stored as it is, 8 bytes each.
-/// Reading is as from a vector; a list only grows at its end.
-class IdRuns {
+/// A list of integers in little memory. Persistent ids, tracks, regions and the like mostly come in runs, of
+/// consecutive integers or of equal ones: a run costs 24 bytes, whatever its length. A list that has no such
+/// order costs 4 bytes an integer while all of them fit, else 8. Reading is as from a vector; a list only
+/// grows at its end.
+class IntegerList {
 public:
     using value_type = std::int64_t;
 
@@ -30,7 +33,8 @@ public:
         using reference = std::int64_t;
 
         Iterator() = default;
-        Iterator(const IdRuns* list, std::size_t at) : list_{list}, at_{static_cast<std::ptrdiff_t>(at)} {}
+        Iterator(const IntegerList* list, std::size_t at)
+            : list_{list}, at_{static_cast<std::ptrdiff_t>(at)} {}
         reference operator*() const { return (*list_)[static_cast<std::size_t>(at_)]; }
         reference operator[](difference_type step) const { return *(*this + step); }
         Iterator& operator++() { return *this += 1; }
@@ -50,15 +54,22 @@ public:
         friend auto operator<=>(const Iterator& a, const Iterator& b) { return a.at_ <=> b.at_; }
 
     private:
-        const IdRuns* list_ = nullptr;
+        const IntegerList* list_ = nullptr;
         std::ptrdiff_t at_ = 0;
     };
 
-    IdRuns() = default;
-    IdRuns(std::initializer_list<std::int64_t> ids) { append({ids.begin(), ids.size()}); }
+    IntegerList() = default;
+    IntegerList(std::initializer_list<std::int64_t> values) { append({values.begin(), values.size()}); }
+    /// Those of an array, which is kept when nothing smaller will do.
+    IntegerList(Array<std::int64_t> values);
+    IntegerList(Array<std::int32_t> values);
+    /// value(0), value(1) ... value(count - 1), asked for in this order.
+    template<class Value>
+    static IntegerList generated(std::size_t count, const Value& value);
 
-    void push_back(std::int64_t id);
-    void append(std::span<const std::int64_t> ids);
+    void push_back(std::int64_t value);
+    void append(std::span<const std::int64_t> values);
+    void append_list(const IntegerList& more);
     /// first, first + step, ...; `step` is 0 or 1.
     void append_run(std::int64_t first, std::size_t count, std::int64_t step);
 
@@ -66,15 +77,18 @@ public:
     bool empty() const { return size_ == 0; }
     /// Cost: logarithmic in the number of runs that are near.
     std::int64_t operator[](std::size_t at) const;
+    std::int64_t at(std::size_t place) const;
     std::int64_t back() const { return (*this)[size_ - 1]; }
     Iterator begin() const { return {this, 0}; }
     Iterator end() const { return {this, size_}; }
     /// Writes those of [begin, end) to `out`.
     void copy(std::size_t begin, std::size_t end, std::int64_t* out) const;
-    /// Whether each id is larger than the one before.
+    /// Whether each is larger than the one before.
     bool ascending() const;
+    /// All, where they are stored in 4 bytes each; else nothing.
+    std::span<const std::int32_t> narrow() const { return narrow_; }
 
-    friend bool operator==(const IdRuns& a, const IdRuns& b);
+    friend bool operator==(const IntegerList& a, const IntegerList& b);
 
 private:
     struct Run {
@@ -82,23 +96,51 @@ private:
         std::int64_t first;
         std::int64_t step; ///< 0 or 1; counts only where a run has two ids
         std::int64_t at(std::size_t place) const {
-            return first + step * static_cast<std::int64_t>(place - begin);
+            return static_cast<std::int64_t>(static_cast<std::uint64_t>(first) +
+                                             static_cast<std::uint64_t>(step) * (place - begin));
         }
     };
 
-    /// Of an id that is listed in runs.
+    /// Of an integer that is listed in runs.
     const Run& run_of(std::size_t at) const;
-    bool extends_last_run(std::int64_t id);
+    bool in_runs() const { return narrow_.empty() && wide_.empty(); }
+    bool extends_last_run(std::int64_t value);
     void give_up_runs();
+    void widen();
     void grow(std::size_t count);
+    template<class T>
+    void take(Array<T>&& values, Array<T>& own);
 
     static constexpr std::size_t block = 1 << 12;
 
     std::vector<Run> runs_;
     std::vector<std::size_t>
-        run_at_block_;          ///< for each whole number of blocks, the run of the id that is there
-    Array<std::int64_t> plain_; ///< instead of runs, where there would be too many
+        run_at_block_;           ///< for each whole number of blocks, the run of the integer that is there
+    Array<std::int32_t> narrow_; ///< instead of runs, where there would be too many
+    Array<std::int64_t> wide_;   ///< the same, where some need more than 32 bits
     std::size_t size_ = 0;
 };
+
+template<class Value>
+IntegerList IntegerList::generated(std::size_t count, const Value& value) {
+    Array<std::int32_t> narrow(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::int64_t next = value(k);
+        if (!std::in_range<std::int32_t>(next)) {
+            Array<std::int64_t> wide(count);
+            std::copy_n(narrow.begin(), k, wide.begin());
+            wide[k] = next;
+            while (++k < count) {
+                wide[k] = value(k);
+            }
+            return wide;
+        }
+        narrow[k] = static_cast<std::int32_t>(next);
+    }
+    return narrow;
+}
+
+/// Rows of `components` integers, those from row `first` on. The list must outlive the column.
+Column<std::int64_t> integer_column(const IntegerList& list, int components = 1, std::size_t first = 0);
 
 } // namespace slabhull
