@@ -81,7 +81,7 @@ public:
     std::int64_t back() const { return (*this)[size_ - 1]; }
     Iterator begin() const { return {this, 0}; }
     Iterator end() const { return {this, size_}; }
-    /// Writes those of [begin, end) to `out`.
+    /// Writes the integers at [begin, end) to `out`.
     void copy(std::size_t begin, std::size_t end, std::int64_t* out) const;
     /// Whether each is larger than the one before.
     bool ascending() const;
@@ -101,7 +101,7 @@ private:
         }
     };
 
-    /// Of an integer that is listed in runs.
+    /// The run that holds the integer at a place.
     const Run& run_of(std::size_t at) const;
     bool in_runs() const { return narrow_.empty() && wide_.empty(); }
     bool extends_last_run(std::int64_t value);
@@ -115,8 +115,8 @@ private:
 
     std::vector<Run> runs_;
     std::vector<std::size_t>
-        run_at_block_;           ///< for each whole number of blocks, the run of the integer that is there
-    Array<std::int32_t> narrow_; ///< instead of runs, where there would be too many
+        run_at_block_; ///< for each block of integers, the run that holds its first; a search starts there
+    Array<std::int32_t> narrow_; ///< the integers themselves, where runs would be too many
     Array<std::int64_t> wide_;   ///< the same, where some need more than 32 bits
     std::size_t size_ = 0;
 };
