@@ -47,4 +47,10 @@ void release_pages(void* memory, std::size_t bytes) noexcept {
     }
 }
 
+void empty_pages(void* memory, std::size_t kept, std::size_t bytes) noexcept {
+    if (bytes >= worth_huge_pages && rounded(kept) < bytes) {
+        ::madvise(static_cast<char*>(memory) + rounded(kept), rounded(bytes) - rounded(kept), MADV_DONTNEED);
+    }
+}
+
 } // namespace slabhull::detail

@@ -5,18 +5,20 @@
 #include "slabhull/io/soup.h"
 
 #include <cstddef>
+#include <span>
 
 namespace slabhull {
 
-/// The simplices of one dimension of a soup, a row of vertices for each.
+/// Vertices of simplices, one after the other, as a row of them for each; a view.
 template<int D>
-Array<Simplex<D>> simplices_of(const io::Soup& soup) {
-    const Array<Index>& vertices = soup.simplices[D].vertices;
-    Array<Simplex<D>> cells(vertices.size() / (D + 1));
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        cells[i / (D + 1)][i % (D + 1)] = vertices[i];
-    }
-    return cells;
+std::span<const Simplex<D>> as_simplices(std::span<const Index> vertices) {
+    return {reinterpret_cast<const Simplex<D>*>(vertices.data()), vertices.size() / (D + 1)};
+}
+
+/// The simplices of one dimension of a soup, a view.
+template<int D>
+std::span<const Simplex<D>> simplices_of(const io::Soup& soup) {
+    return as_simplices<D>(soup.simplices[D].vertices);
 }
 
 /// The array "t" over the points; nullptr where there is none that fits.

@@ -21,7 +21,7 @@ namespace {
 
 using detail::Order;
 using detail::whole_numbers;
-using Numbers = Array<std::int64_t>;
+using Numbers = IntegerList;
 
 template<class Keep>
 Order chosen(std::size_t count, const Keep& keep) {
@@ -119,7 +119,7 @@ std::array<Index, N> sorted(std::array<Index, N> vertices) {
 }
 
 template<int D>
-void require_distinct_vertices(const io::Soup& soup, const Array<Simplex<D>>& cells) {
+void require_distinct_vertices(const io::Soup& soup, std::span<const Simplex<D>> cells) {
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const auto vertices = sorted(cells[c]);
         if (std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end()) {
@@ -138,7 +138,7 @@ struct Boundary {
 
 template<int D>
 Boundary<D> boundary_of(const io::Soup& soup) {
-    const Array<Simplex<D>> cells = simplices_of<D>(soup);
+    const std::span<const Simplex<D>> cells = simplices_of<D>(soup);
     require_distinct_vertices<D>(soup, cells);
     const Adjacency<D> adjacency = build_adjacency<D>(cells, soup.points.size());
     std::set<Facet<D>> overfull;
@@ -298,7 +298,7 @@ void extract_boundary(io::Soup& soup) {
             fmt::format("--extract-boundary: {} has neither triangles nor tetrahedra", soup.path)};
     }
     if (Numbers* cell = whole_numbers(soup.point_data, "cell")) {
-        std::fill(cell->begin(), cell->end(), -1);
+        *cell = IntegerList::generated(cell->size(), [](std::size_t) { return -1; });
     }
     detail::drop_unused_points(soup);
     detail::mend_cells_of_points(soup);
@@ -342,7 +342,9 @@ void reverse(io::Soup& soup) {
     }
     const int corners = soup.top_dimension() + 1;
     if (Numbers* neighbors = whole_numbers(soup.cell_data, "neighbors", corners)) {
-        swap_first_two(*neighbors, static_cast<std::size_t>(corners));
+        Array<std::int64_t> rows(neighbors->begin(), neighbors->end());
+        swap_first_two(rows, static_cast<std::size_t>(corners));
+        *neighbors = std::move(rows);
     }
 }
 

@@ -14,7 +14,7 @@ namespace slabhull {
 
 namespace {
 
-using Numbers = Array<std::int64_t>;
+using Numbers = IntegerList;
 
 bool is_hull(const io::Soup& soup) {
     return soup.top_dimension() == 3 ? soup_times(soup) != nullptr : has_time_as_coordinate(soup);
@@ -49,7 +49,7 @@ std::vector<SoupInfo::Bounds> bounds_of(const Array<Point<N>>& points, const cha
 // --- measures
 
 template<int D, int N>
-Array<double> measures_of(const Array<Point<N>>& points, const Array<Simplex<D>>& cells) {
+Array<double> measures_of(std::span<const Point<N>> points, std::span<const Simplex<D>> cells) {
     Array<double> measures(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) {
         measures[c] = simplex_measure<D, N>(corners_of<D, N>(cells[c], points));
@@ -125,7 +125,7 @@ void add_parts(SoupInfo& info, io::Soup& soup, const Array<double>& measures) {
 template<int D, int N>
 void look_at_cells(SoupInfo& info, io::Soup& soup) {
     const Array<Point<N>> points = points_of<N>(soup);
-    const Array<Simplex<D>> cells = simplices_of<D>(soup);
+    const std::span<const Simplex<D>> cells = simplices_of<D>(soup);
     info.bounds = bounds_of<N>(points, info.hull && D == 2 ? "xyt" : "xyzt");
     info.angles = angle_histogram<D, N>(points, cells);
     for (const Simplex<D>& cell : cells) {

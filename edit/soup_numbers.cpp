@@ -14,7 +14,7 @@ namespace slabhull {
 namespace {
 
 using io::DataArray;
-using Numbers = Array<std::int64_t>;
+using Numbers = IntegerList;
 
 /// Two numbers are left for the caps.
 constexpr std::int64_t largest_patch = std::numeric_limits<PatchNumber>::max() - 2;
@@ -54,10 +54,8 @@ void make_whole(DataArray* array) {
         })) {
         return;
     }
-    Numbers whole(reals->size());
-    std::transform(reals->begin(), reals->end(), whole.begin(),
-                   [](double x) { return static_cast<std::int64_t>(x); });
-    array->values = std::move(whole);
+    array->values = Numbers::generated(reals->size(),
+                                       [&](std::size_t k) { return static_cast<std::int64_t>((*reals)[k]); });
 }
 
 /// From element tags to numbers from 0.
@@ -101,17 +99,19 @@ bool names_cells_by_tags(io::Soup& soup) {
 void join_neighbors(io::Soup& soup, const CellOfTag& cell_of) {
     const auto width = static_cast<std::size_t>(soup.top_dimension()) + 1;
     const std::size_t cells = top_block(soup).tags.size();
-    Numbers joined(cells * width);
+    std::vector<std::string> names;
+    std::vector<const Numbers*> tags;
     for (std::size_t i = 0; i < width; ++i) {
-        const Numbers& tags = *numbers(soup.cell_data, neighbor_name(i));
-        for (std::size_t c = 0; c < cells; ++c) {
-            joined[c * width + i] = cell_of(tags[c], neighbor_name(i));
-        }
+        names.push_back(neighbor_name(i));
+        tags.push_back(numbers(soup.cell_data, names[i]));
     }
+    Numbers joined = Numbers::generated(cells * width, [&](std::size_t k) {
+        return cell_of((*tags[k % width])[k / width], names[k % width]);
+    });
     DataArray& first = *find_array(soup.cell_data, neighbor_name(0));
     first = {"neighbors", static_cast<int>(width), std::move(joined)};
     for (std::size_t i = 1; i < width; ++i) {
-        erase_array(soup.cell_data, neighbor_name(i));
+        erase_array(soup.cell_data, names[i]);
     }
 }
 
@@ -188,14 +188,13 @@ void settle_numbers(io::Soup& soup) {
     const CellOfTag cell_of{soup, top_block(soup)};
     join_neighbors(soup, cell_of);
     if (Numbers* cell = numbers(soup.point_data, "cell")) {
-        std::transform(cell->begin(), cell->end(), cell->begin(),
-                       [&](std::int64_t tag) { return cell_of(tag, "cell"); });
+        *cell = Numbers::generated(cell->size(), [&](std::size_t v) { return cell_of((*cell)[v], "cell"); });
     }
 }
 
 void number_by_tags(io::Soup& soup) {
     const auto raise = [](Numbers& values) {
-        std::for_each(values.begin(), values.end(), [](std::int64_t& value) { ++value; });
+        values = Numbers::generated(values.size(), [&](std::size_t k) { return values[k] + 1; });
     };
     DataArray* neighbors = find_array(soup.cell_data, "neighbors");
     if (neighbors == nullptr || !std::holds_alternative<Numbers>(neighbors->values)) {
@@ -215,7 +214,7 @@ void groups_to_arrays(io::Soup& soup) {
         find_array(soup.cell_data, "region") != nullptr) {
         return;
     }
-    Numbers patch(block.physical.begin(), block.physical.end());
+    Array<std::int64_t> patch(block.physical.begin(), block.physical.end());
     const PatchNumber initial = patch_number(groups, "initial");
     const PatchNumber terminating = patch_number(groups, "terminating");
     if (terminating != 0) {
@@ -231,7 +230,7 @@ void groups_to_arrays(io::Soup& soup) {
         soup.cell_data.insert(soup.cell_data.begin(), {"region", 1, std::move(region)});
         add_time(soup);
     }
-    soup.cell_data.push_back({"patch", 1, std::move(patch)});
+    soup.cell_data.push_back({"patch", 1, Numbers{std::move(patch)}});
     list_patches(soup, groups);
     groups.clear();
     block.physical.clear();

@@ -25,15 +25,16 @@ void pick(Values& values, const Order& order, std::size_t width) {
     values = std::move(picked);
 }
 
-void renumber(Array<std::int64_t>& values, const Array<Index>& fresh) {
-    for (std::int64_t& value : values) {
+void renumber(IntegerList& values, const Array<Index>& fresh) {
+    values = IntegerList::generated(values.size(), [&](std::size_t k) {
+        const std::int64_t value = values[k];
         const bool stays = value >= 0 && static_cast<std::size_t>(value) < fresh.size() &&
                            fresh[static_cast<std::size_t>(value)] != no_index;
-        value = stays ? static_cast<std::int64_t>(fresh[static_cast<std::size_t>(value)]) : -1;
-    }
+        return stays ? std::int64_t{fresh[static_cast<std::size_t>(value)]} : -1;
+    });
 }
 
-Array<std::int64_t>* neighbors_of(io::Soup& soup) {
+IntegerList* neighbors_of(io::Soup& soup) {
     return whole_numbers(soup.cell_data, "neighbors", soup.top_dimension() + 1);
 }
 
@@ -48,23 +49,21 @@ Array<Index> inverse(const Order& order, std::size_t count) {
     return fresh;
 }
 
-const Array<std::int64_t>* whole_numbers(const std::vector<io::DataArray>& arrays, const std::string& name,
-                                         int components) {
+const IntegerList* whole_numbers(const std::vector<io::DataArray>& arrays, const std::string& name,
+                                 int components) {
     const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const io::DataArray& array) {
         return array.name == name && array.components == components;
     });
-    return found == arrays.end() ? nullptr : std::get_if<Array<std::int64_t>>(&found->values);
+    return found == arrays.end() ? nullptr : std::get_if<IntegerList>(&found->values);
 }
 
-Array<std::int64_t>* whole_numbers(std::vector<io::DataArray>& arrays, const std::string& name,
-                                   int components) {
-    return const_cast<Array<std::int64_t>*>(whole_numbers(std::as_const(arrays), name, components));
+IntegerList* whole_numbers(std::vector<io::DataArray>& arrays, const std::string& name, int components) {
+    return const_cast<IntegerList*>(whole_numbers(std::as_const(arrays), name, components));
 }
 
 void pick_rows(std::vector<io::DataArray>& arrays, const Order& order) {
     for (io::DataArray& array : arrays) {
-        std::visit([&](auto& values) { pick(values, order, static_cast<std::size_t>(array.components)); },
-                   array.values);
+        array.keep_rows(order);
     }
 }
 
@@ -75,11 +74,11 @@ void keep_cells(io::Soup& soup, const std::array<Order, 4>& orders) {
         soup.cell_data.clear();
     } else {
         pick_rows(soup.cell_data, orders[top]);
-        if (Array<std::int64_t>* neighbors = neighbors_of(soup)) {
+        if (IntegerList* neighbors = neighbors_of(soup)) {
             renumber(*neighbors, fresh);
         }
     }
-    if (Array<std::int64_t>* cell = whole_numbers(soup.point_data, "cell")) {
+    if (IntegerList* cell = whole_numbers(soup.point_data, "cell")) {
         renumber(*cell, fresh);
     }
     for (std::size_t d = 0; d < orders.size(); ++d) {
@@ -112,10 +111,11 @@ void drop_unused_points(io::Soup& soup) {
 }
 
 void mend_cells_of_points(io::Soup& soup) {
-    Array<std::int64_t>* cell = whole_numbers(soup.point_data, "cell");
-    if (cell == nullptr) {
+    IntegerList* cells_of_points = whole_numbers(soup.point_data, "cell");
+    if (cells_of_points == nullptr) {
         return;
     }
+    Array<std::int64_t> cell(cells_of_points->begin(), cells_of_points->end());
     const int dimension = soup.top_dimension();
     const io::SimplexBlock& block = soup.simplices[static_cast<std::size_t>(dimension)];
     const auto corners = static_cast<std::size_t>(dimension) + 1;
@@ -125,15 +125,16 @@ void mend_cells_of_points(io::Soup& soup) {
                first + static_cast<std::ptrdiff_t>(corners);
     };
     const auto cells = static_cast<std::int64_t>(block.size(dimension));
-    for (std::size_t v = 0; v < cell->size(); ++v) {
-        const std::int64_t c = (*cell)[v];
-        (*cell)[v] = c >= 0 && c < cells && uses(c, v) ? c : -1;
+    for (std::size_t v = 0; v < cell.size(); ++v) {
+        const std::int64_t c = cell[v];
+        cell[v] = c >= 0 && c < cells && uses(c, v) ? c : -1;
     }
     for (std::size_t i = 0; i < block.vertices.size(); ++i) {
-        if (std::int64_t& c = (*cell)[block.vertices[i]]; c == -1) {
+        if (std::int64_t& c = cell[block.vertices[i]]; c == -1) {
             c = static_cast<std::int64_t>(i / corners);
         }
     }
+    *cells_of_points = std::move(cell);
 }
 
 } // namespace slabhull::detail

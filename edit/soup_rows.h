@@ -14,10 +14,9 @@ using Order = Array<Index>;
 Array<Index> inverse(const Order& order, std::size_t count);
 
 /// The integers of the array of that name; nullptr when there is none.
-Array<std::int64_t>* whole_numbers(std::vector<io::DataArray>& arrays, const std::string& name,
-                                   int components = 1);
-const Array<std::int64_t>* whole_numbers(const std::vector<io::DataArray>& arrays, const std::string& name,
-                                         int components = 1);
+IntegerList* whole_numbers(std::vector<io::DataArray>& arrays, const std::string& name, int components = 1);
+const IntegerList* whole_numbers(const std::vector<io::DataArray>& arrays, const std::string& name,
+                                 int components = 1);
 
 /// Puts the rows of arrays in another order.
 void pick_rows(std::vector<io::DataArray>& arrays, const Order& order);

@@ -97,13 +97,8 @@ Order sound_cells(const io::SimplexBlock& block, std::size_t corners) {
 
 template<int D>
 Array<std::int64_t> neighbors_of(const io::Soup& soup) {
-    const Array<Index>& vertices = soup.simplices[D].vertices;
-    Array<Simplex<D>> cells(vertices.size() / (D + 1));
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        cells[i / (D + 1)][i % (D + 1)] = vertices[i];
-    }
     Array<std::int64_t> neighbors;
-    for (const auto& across : build_adjacency<D>(cells, soup.points.size()).neighbors) {
+    for (const auto& across : build_adjacency<D>(simplices_of<D>(soup), soup.points.size()).neighbors) {
         for (const Index cell : across) {
             neighbors.push_back(cell == no_index ? -1 : static_cast<std::int64_t>(cell));
         }
@@ -113,7 +108,7 @@ Array<std::int64_t> neighbors_of(const io::Soup& soup) {
 
 void find_neighbors_anew(io::Soup& soup) {
     const int dimension = soup.top_dimension();
-    Array<std::int64_t>* neighbors = detail::whole_numbers(soup.cell_data, "neighbors", dimension + 1);
+    IntegerList* neighbors = detail::whole_numbers(soup.cell_data, "neighbors", dimension + 1);
     if (neighbors != nullptr && dimension > 0) {
         *neighbors = dimension == 1   ? neighbors_of<1>(soup)
                      : dimension == 2 ? neighbors_of<2>(soup)

@@ -95,7 +95,7 @@ void require_dimension(const ConvertCommand& command, const io::Format& format, 
 /// those of hulls, which tell the regions, become arrays.
 void settle_groups(const io::Format& format, io::Soup& soup) {
     const bool arrays_stay =
-        io::stores(format, soup, io::ArrayAssociation::cells, {"patch", 1, Array<std::int64_t>{}});
+        io::stores(format, soup, io::ArrayAssociation::cells, {"patch", 1, IntegerList{}});
     const PatchList& groups = soup.groups[static_cast<std::size_t>(soup.top_dimension())];
     if (format.features.groups && (format.features.group_names || !arrays_stay)) {
         arrays_to_groups(soup);
@@ -217,7 +217,7 @@ void add_convert(CLI::App& program, int& exit_code) {
     app->add_option("--from", command->from, "Format of IN, whatever its extension");
     app->add_option("--to", command->to, "Format of OUT, whatever its extension");
     app->add_flag("--linear", command->reading.linear,
-                  "Of curved (second-order) simplices in MSH, VTU, VTK and XDMF, take the corners");
+                  "Of curved (second-order) simplices, take the corners");
     app->add_flag("--split-output", command->split,
                   "A file for each region and patch: OUT with _initial, _terminating, _PATCH in its name");
     app->add_option("--encoding", command->writing.encoding,

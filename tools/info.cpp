@@ -37,7 +37,13 @@ ArrayInfo info_of(const io::DataArray& array, bool with_values) {
     constexpr std::array<const char*, 3> types{"real", "integer", "text"};
     ArrayInfo info{array.name, types.at(array.values.index()), array.components, Json::array()};
     if (with_values) {
-        std::visit([&info](const auto& values) { info.values = values; }, array.values);
+        std::visit(
+            [&info](const auto& values) {
+                for (const auto& value : values) {
+                    info.values.push_back(value);
+                }
+            },
+            array.values);
     }
     return info;
 }

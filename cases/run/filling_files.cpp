@@ -79,8 +79,8 @@ io::SpaceTimeColumns space_time_columns(const Filling<D>& filling, std::span<con
     mesh.facet_attribute =
         Column<std::int64_t>::over(std::span<const FacetAttribute>{filling.facet_attribute});
     mesh.facet_side = Column<std::int64_t>::over(sides);
-    mesh.vertex_id = id_column(filling.vertex_ids);
-    mesh.track_id = id_column(filling.track_ids);
+    mesh.vertex_id = integer_column(filling.vertex_ids);
+    mesh.track_id = integer_column(filling.track_ids);
     mesh.time = filling.time;
     mesh.slab = filling.slab;
     return mesh;
@@ -112,8 +112,8 @@ io::MeshColumns mesh_columns(const Filling<2>& filling) {
     mesh.points = coordinates<3>(filling.points);
     mesh.cells = index_rows<4>(filling.cells);
     mesh.groups = {{0, filling.cells.size(), 1, "slab"}};
-    mesh.point_data = {{"vertex_id", Scalar::int64, id_column(filling.vertex_ids)},
-                       {"track_id", Scalar::int64, id_column(filling.track_ids)}};
+    mesh.point_data = {{"vertex_id", Scalar::int64, integer_column(filling.vertex_ids)},
+                       {"track_id", Scalar::int64, integer_column(filling.track_ids)}};
     mesh.field_data = {{"slab", 1, Array<std::int64_t>{filling.slab}},
                        {"time", 1, Array<double>(filling.time.begin(), filling.time.end())}};
     mesh.lower.push_back(boundary_part(filling));

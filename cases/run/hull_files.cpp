@@ -136,8 +136,8 @@ template<int D>
 MeshColumns vtu_columns(const Hull<D>& hull) {
     MeshColumns mesh = mesh_columns(hull);
     mesh.point_data = {{"t", Scalar::float64, times_of(hull)},
-                       {"vertex_id", Scalar::int64, id_column(hull.vertex_ids)},
-                       {"track_id", Scalar::int64, id_column(hull.track_ids)},
+                       {"vertex_id", Scalar::int64, integer_column(hull.vertex_ids)},
+                       {"track_id", Scalar::int64, integer_column(hull.track_ids)},
                        {"cell", Scalar::int64, cells_of_points(hull)}};
     mesh.cell_data = {
         {"region", Scalar::int32, region_column(hull)},
@@ -186,8 +186,8 @@ MeshColumns msh_columns(const Hull<D>& hull) {
     if constexpr (D == 3) {
         mesh.point_data.push_back({"t", Scalar::float64, times_of(hull)});
     }
-    mesh.point_data.push_back({"vertex_id", Scalar::int64, id_column(hull.vertex_ids)});
-    mesh.point_data.push_back({"track_id", Scalar::int64, id_column(hull.track_ids)});
+    mesh.point_data.push_back({"vertex_id", Scalar::int64, integer_column(hull.vertex_ids)});
+    mesh.point_data.push_back({"track_id", Scalar::int64, integer_column(hull.track_ids)});
     // Element tags count from 1.
     mesh.cell_data = {
         {"neighbor", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors}, 1)}};
@@ -200,27 +200,26 @@ std::size_t row_count(const DataArray& array) {
 }
 
 /// The array, which may go, as whole numbers; MSH holds them as doubles.
-Array<std::int64_t> whole_numbers(const io::Soup& soup, DataArray&& array) {
-    if (auto* integers = std::get_if<Array<std::int64_t>>(&array.values)) {
+IntegerList whole_numbers(const io::Soup& soup, DataArray&& array) {
+    if (auto* integers = std::get_if<IntegerList>(&array.values)) {
         return std::move(*integers);
     }
     const auto* reals = std::get_if<Array<double>>(&array.values);
-    Array<std::int64_t> whole;
-    for (const double value : reals != nullptr ? *reals : Array<double>{}) {
+    return IntegerList::generated(reals != nullptr ? reals->size() : 0, [&](std::size_t k) {
+        const double value = (*reals)[k];
         if (!(value >= -9e15 && value <= 9e15) ||
             value != static_cast<double>(static_cast<std::int64_t>(value))) {
             throw InputError(
                 fmt::format("{}: array \"{}\": {} is not a whole number", soup.path, array.name, value));
         }
-        whole.push_back(static_cast<std::int64_t>(value));
-    }
-    return whole;
+        return static_cast<std::int64_t>(value);
+    });
 }
 
 /// A given array of whole numbers with the right shape, or an empty one. It is taken out of the soup's
 /// arrays.
-Array<std::int64_t> take_numbers(const io::Soup& soup, std::vector<DataArray>& arrays,
-                                 const std::string& name, std::size_t rows, int components) {
+IntegerList take_numbers(const io::Soup& soup, std::vector<DataArray>& arrays, const std::string& name,
+                         std::size_t rows, int components) {
     const auto array =
         std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& each) { return each.name == name; });
     if (array == arrays.end()) {
@@ -235,12 +234,6 @@ Array<std::int64_t> take_numbers(const io::Soup& soup, std::vector<DataArray>& a
     return whole_numbers(soup, std::move(taken));
 }
 
-IdRuns as_runs(const Array<std::int64_t>& numbers) {
-    IdRuns runs;
-    runs.append(numbers);
-    return runs;
-}
-
 template<int D>
 void require_times(const io::Soup& soup) {
     if (D == 3 && soup_times(soup) == nullptr) {
@@ -249,17 +242,29 @@ void require_times(const io::Soup& soup) {
     }
 }
 
+/// The soup's points go into these from behind, so that no coordinate is held twice.
 template<int D>
-Array<Point<D + 1>> space_time_points(const io::Soup& soup) {
-    Array<Point<D + 1>> points(soup.points.size());
-    const Array<double>* times = D == 3 ? soup_times(soup) : nullptr;
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        std::copy(soup.points[v].begin(), soup.points[v].end(), points[v].begin());
-        if (times != nullptr) {
-            points[v][D] = (*times)[v];
+Array<Point<D + 1>> take_points(io::Soup& soup) {
+    if constexpr (D == 2) {
+        return std::move(soup.points);
+    } else {
+        const auto array = std::find_if(soup.point_data.begin(), soup.point_data.end(),
+                                        [](const DataArray& each) { return each.name == "t"; });
+        auto& times = std::get<Array<double>>(array->values);
+        constexpr std::size_t block = 1 << 20;
+        Array<Point<4>> points(soup.points.size());
+        for (std::size_t end = points.size(); end > 0;) {
+            const std::size_t begin = end - std::min(end, block);
+            for (std::size_t v = begin; v < end; ++v) {
+                const Point<3>& x = soup.points[v];
+                points[v] = {x[0], x[1], x[2], times[v]};
+            }
+            shorten(soup.points, begin);
+            shorten(times, begin);
+            end = begin;
         }
+        return points;
     }
-    return points;
 }
 
 /// What an MSH says through physical groups: regions by name, the other groups are patches.
@@ -288,40 +293,16 @@ void read_groups(const io::Soup& soup, HullArrays<D>& hull) {
 }
 
 template<int D>
-Array<std::int64_t> take_msh_neighbors(io::Soup& soup, std::size_t cells) {
-    Array<std::int64_t> neighbors(cells * (D + 1));
+IntegerList take_msh_neighbors(io::Soup& soup, std::size_t cells) {
+    std::array<IntegerList, D + 1> tags;
     for (std::size_t i = 0; i <= D; ++i) {
-        const auto tags = take_numbers(soup, soup.cell_data, fmt::format("neighbor_{}", i), cells, 1);
-        if (tags.empty()) {
+        tags[i] = take_numbers(soup, soup.cell_data, fmt::format("neighbor_{}", i), cells, 1);
+        if (tags[i].empty()) {
             return {};
         }
-        for (std::size_t c = 0; c < tags.size(); ++c) {
-            neighbors[c * (D + 1) + i] = tags[c] - 1;
-        }
     }
-    return neighbors;
-}
-
-template<int D>
-void keep_neighbors(Array<std::int64_t>&& given, HullArrays<D>& hull) {
-    constexpr std::size_t row = D + 1;
-    const std::size_t cells = given.size() / row;
-    const auto impossible = [cells](std::int64_t n) {
-        return n < -1 || n >= static_cast<std::int64_t>(cells);
-    };
-    if (std::any_of(given.begin(), given.end(), impossible)) {
-        hull.other_neighbors = std::move(given);
-        return;
-    }
-    hull.neighbors.resize(cells);
-    parallel_for(cells, 1 << 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            for (std::size_t i = 0; i < row; ++i) {
-                const std::int64_t n = given[c * row + i];
-                hull.neighbors[c][i] = n < 0 ? no_index : static_cast<Index>(n);
-            }
-        }
-    });
+    return IntegerList::generated(cells * (D + 1),
+                                  [&](std::size_t k) { return tags[k % (D + 1)][k / (D + 1)] - 1; });
 }
 
 template<int D>
@@ -335,7 +316,7 @@ void read_fields(const io::Soup& soup, HullArrays<D>& hull) {
     const DataArray* numbers = soup.find_field_data("patch_number");
     const DataArray* names = soup.find_field_data("patch_name");
     if (numbers != nullptr && names != nullptr) {
-        const Array<std::int64_t> given = whole_numbers(soup, DataArray{*numbers});
+        const IntegerList given = whole_numbers(soup, DataArray{*numbers});
         const auto* texts = std::get_if<std::vector<std::string>>(&names->values);
         for (std::size_t i = 0; texts != nullptr && i < std::min(given.size(), texts->size()); ++i) {
             hull.patches.push_back({static_cast<PatchNumber>(given[i]), (*texts)[i]});
@@ -343,13 +324,20 @@ void read_fields(const io::Soup& soup, HullArrays<D>& hull) {
     }
 }
 
-Column<std::int64_t> optional_column(const Array<std::int64_t>& values, int components = 1) {
-    return values.empty() ? Column<std::int64_t>{}
-                          : Column<std::int64_t>::over(std::span<const std::int64_t>{values}, components);
+Column<std::int64_t> optional_column(const IntegerList& values, int components = 1) {
+    return values.empty() ? Column<std::int64_t>{} : integer_column(values, components);
 }
 
-Column<std::int64_t> optional_column(const IdRuns& values) {
-    return values.empty() ? Column<std::int64_t>{} : id_column(values);
+/// The array as a table, without a copy: -1 in 32 bits is no_index. Nothing where it cannot be one of that
+/// many cells, or where these are so many that it has 64 bits.
+template<int D>
+std::span<const Neighbors<D>> as_table(const IntegerList& neighbors, std::size_t cells) {
+    const std::span<const std::int32_t> narrow = neighbors.narrow();
+    const bool possible = std::all_of(narrow.begin(), narrow.end(), [cells](std::int32_t n) {
+        return n >= -1 && n < static_cast<std::int64_t>(cells);
+    });
+    return possible ? std::span{reinterpret_cast<const Neighbors<D>*>(narrow.data()), narrow.size() / (D + 1)}
+                    : std::span<const Neighbors<D>>{};
 }
 
 } // namespace
@@ -389,8 +377,8 @@ void write_terminating_cap(io::AtomicFile& file, const Hull<D>& hull) {
                    }};
     mesh.cells = index_rows(std::span<const Simplex<D>>{hull.cells}.subspan(first_cell),
                             -static_cast<std::int64_t>(first_point));
-    mesh.point_data = {{"vertex_id", Scalar::int64, id_column(hull.vertex_ids, first_point)},
-                       {"track_id", Scalar::int64, id_column(hull.track_ids, first_point)}};
+    mesh.point_data = {{"vertex_id", Scalar::int64, integer_column(hull.vertex_ids, 1, first_point)},
+                       {"track_id", Scalar::int64, integer_column(hull.track_ids, 1, first_point)}};
     mesh.field_data = {{"time", 1, Array<double>{hull.time[1]}}, number_field("dimension", {D})};
     io::write_vtu(file, mesh);
 }
@@ -403,8 +391,10 @@ SpatialMesh<D> read_cap(const std::filesystem::path& path) {
         return take_numbers(soup, soup.point_data, name, mesh.points.size(), 1);
     };
     SpatialMesh<D> cap;
-    cap.vertex_ids = ids("vertex_id");
-    cap.track_ids = ids("track_id");
+    const IntegerList vertex_ids = ids("vertex_id");
+    const IntegerList track_ids = ids("track_id");
+    cap.vertex_ids.assign(vertex_ids.begin(), vertex_ids.end());
+    cap.track_ids.assign(track_ids.begin(), track_ids.end());
     if (cap.vertex_ids.empty() || cap.track_ids.empty()) {
         throw InputError(fmt::format("{}: has no vertex_id and track_id of a cap", path.string()));
     }
@@ -447,8 +437,8 @@ HullArrays<D> hull_of_soup(io::Soup& soup) {
     HullArrays<D> hull;
     const std::size_t cells = soup.simplices[D].size(D);
     const std::size_t points = soup.points.size();
-    const auto runs_of_cells = [&](const char* name) {
-        return as_runs(take_numbers(soup, soup.cell_data, name, cells, 1));
+    const auto of_cells = [&](const char* name, int components = 1) {
+        return take_numbers(soup, soup.cell_data, name, cells, components);
     };
     const auto of_points = [&](const char* name) {
         return take_numbers(soup, soup.point_data, name, points, 1);
@@ -457,26 +447,25 @@ HullArrays<D> hull_of_soup(io::Soup& soup) {
     read_fields(soup, hull);
     const bool of_msh = soup.find_cell_data("neighbor_0") != nullptr;
     const bool has_regions = soup.find_cell_data("region") != nullptr;
-    hull.layer = runs_of_cells("layer");
+    hull.layer = of_cells("layer");
     if (has_regions) {
-        hull.region = runs_of_cells("region");
-        hull.patch = runs_of_cells("patch");
+        hull.region = of_cells("region");
+        hull.patch = of_cells("patch");
     } else {
         read_groups(soup, hull);
     }
-    keep_neighbors<D>(has_regions ? take_numbers(soup, soup.cell_data, "neighbors", cells, D + 1)
-                                  : take_msh_neighbors<D>(soup, cells),
-                      hull);
-    hull.vertex_id = as_runs(of_points("vertex_id"));
-    hull.track_id = as_runs(of_points("track_id"));
+    hull.neighbors = has_regions ? of_cells("neighbors", D + 1) : take_msh_neighbors<D>(soup, cells);
+    hull.vertex_id = of_points("vertex_id");
+    hull.track_id = of_points("track_id");
     hull.cell_of_vertex = of_points("cell");
     if (of_msh) { // an MSH has element tags there, too
-        std::for_each(hull.cell_of_vertex.begin(), hull.cell_of_vertex.end(), [](auto& cell) { --cell; });
+        hull.cell_of_vertex = IntegerList::generated(
+            hull.cell_of_vertex.size(), [&](std::size_t v) { return hull.cell_of_vertex[v] - 1; });
     }
-    hull.points = space_time_points<D>(soup);
-    soup.points = {};
-    hull.cells = simplices_of<D>(soup);
-    soup.simplices[D].vertices = {};
+    hull.vertices = std::move(soup.simplices[D].vertices);
+    hull.points = take_points<D>(soup);
+    soup.cell_data.clear();
+    soup.point_data.clear();
     return hull;
 }
 
@@ -484,15 +473,14 @@ template<int D>
 HullColumns<D> HullArrays<D>::columns() const {
     HullColumns<D> all;
     all.points = points;
-    all.cells = cells;
+    all.cells = as_simplices<D>(vertices);
     all.region = optional_column(region);
     all.patch = optional_column(patch);
     all.layer = optional_column(layer);
     all.vertex_id = optional_column(vertex_id);
     all.track_id = optional_column(track_id);
-    all.neighbors = neighbors.empty() ? optional_column(other_neighbors, D + 1)
-                                      : neighbor_column(std::span<const Neighbors<D>>{neighbors});
-    all.neighbor_table = neighbors;
+    all.neighbors = optional_column(neighbors, D + 1);
+    all.neighbor_table = as_table<D>(neighbors, all.cells.size());
     all.cell_of_vertex = optional_column(cell_of_vertex);
     all.patches = patches;
     all.time = time;
@@ -502,7 +490,8 @@ HullColumns<D> HullArrays<D>::columns() const {
 template<int D>
 MeshArrays<D> mesh_of_soup(const io::Soup& soup) {
     MeshArrays<D> mesh;
-    mesh.cells = simplices_of<D>(soup);
+    const std::span<const Simplex<D>> cells = simplices_of<D>(soup);
+    mesh.cells.assign(cells.begin(), cells.end());
     for (std::size_t v = 0; v < soup.points.size(); ++v) {
         mesh.points.push_back(point_in_space<D>(soup, v));
     }

@@ -112,8 +112,8 @@ public:
         }
         read_displacements();
         if (const auto* array = soup_.find_point_data("track_id")) {
-            if (const auto* tracks = std::get_if<Array<std::int64_t>>(&array->values)) {
-                table_.tracks = *tracks;
+            if (const auto* tracks = std::get_if<IntegerList>(&array->values)) {
+                table_.tracks.assign(tracks->begin(), tracks->end());
             }
         }
         table_.time = time();

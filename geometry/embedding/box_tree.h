@@ -71,7 +71,15 @@ public:
     static constexpr std::size_t fan = std::size_t{1} << fan_bits;
 
     /// `boxes` by item; empty ones are never found.
-    explicit BoxTree(const Array<Box<D>>& boxes);
+    explicit BoxTree(const Array<Box<D>>& boxes)
+        : BoxTree{boxes.size(), [&boxes](std::size_t item) { return boxes[item]; }} {}
+    /// The same of boxes that are not stored: box_of(item) is called three times for each, from several
+    /// threads.
+    template<class BoxOf>
+    BoxTree(std::size_t count, const BoxOf& box_of) {
+        order_items(count, box_of);
+        build_levels();
+    }
 
     std::size_t blocks() const { return levels_.front().size(); }
 
@@ -132,7 +140,8 @@ private:
         }
     }
 
-    void order_items(const Array<Box<D>>& boxes);
+    template<class BoxOf>
+    void order_items(std::size_t count, const BoxOf& box_of);
     void build_levels();
 
     std::vector<Index> items_;
@@ -174,30 +183,28 @@ std::uint64_t tree_key(const Box<D>& box, const Box<D>& all) {
 } // namespace detail
 
 template<int D>
-BoxTree<D>::BoxTree(const Array<Box<D>>& boxes) {
-    order_items(boxes);
-    build_levels();
-}
-
-template<int D>
-void BoxTree<D>::order_items(const Array<Box<D>>& boxes) {
+template<class BoxOf>
+void BoxTree<D>::order_items(std::size_t count, const BoxOf& box_of) {
+    constexpr std::size_t grain = 1 << 14;
     Box<D> all;
-    for (const Box<D>& box : boxes) {
-        all.include(box);
+    for (std::size_t k = 0; k < count; ++k) {
+        all.include(box_of(k));
     }
-    std::vector<std::pair<std::uint64_t, Index>> order(boxes.size());
-    parallel_for(boxes.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    Array<std::pair<std::uint64_t, Index>> order(count);
+    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            order[k] = {detail::tree_key(boxes[k], all), static_cast<Index>(k)};
+            order[k] = {detail::tree_key(box_of(k), all), static_cast<Index>(k)};
         }
     });
     std::sort(order.begin(), order.end());
-    items_.resize(boxes.size());
-    boxes_.resize(boxes.size());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        items_[k] = order[k].second;
-        boxes_[k] = boxes[order[k].second];
-    }
+    items_.resize(count);
+    boxes_.resize(count);
+    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            items_[k] = order[k].second;
+            boxes_[k] = box_of(order[k].second);
+        }
+    });
 }
 
 template<int D>

@@ -111,9 +111,9 @@ private:
 
 template<int D>
 CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
-                          std::span<const Neighbors<D>> neighbors, const std::vector<bool>& test)
-    : all_cells_{cells}, neighbors_{neighbors} {
-    first_local_.push_back(0);
+                          const std::vector<bool>& test)
+    : all_cells_{cells} {
+    cells_before_.push_back(0);
     find_prisms(test);
     tested_ = first_cell_.size();
     add_touching(test);
@@ -125,7 +125,7 @@ CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_
 template<int D>
 void CellGroups<D>::add_group(std::size_t first, std::size_t count) {
     first_cell_.push_back(static_cast<Index>(first));
-    first_local_.push_back(first_local_.back() + count);
+    cells_before_.push_back(cells_before_.back() + count);
 }
 
 template<int D>
@@ -183,24 +183,11 @@ void CellGroups<D>::list_vertices() {
         first_vertex_[g + 1] += first_vertex_[g];
     }
     vertices_.resize(first_vertex_.back());
-    local_.resize(first_local_.back());
     parallel_for(count(), group_grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t g = begin; g < end; ++g) {
             const VertexSet<D> set = vertices_of(g);
             std::copy(set.begin(), set.end(),
                       vertices_.begin() + static_cast<std::ptrdiff_t>(first_vertex_[g]));
-            for (std::size_t k = 0; k < cell_count(g); ++k) {
-                const std::size_t c = first_cell_[g] + k;
-                LocalCell& local = local_[first_local_[g] + k];
-                local.outer = 0;
-                for (std::size_t i = 0; i <= D; ++i) {
-                    const auto place = std::find(set.begin(), set.end(), all_cells_[c][i]) - set.begin();
-                    local.corner[i] = static_cast<std::uint8_t>(place);
-                    const bool outer = neighbors_.empty() || neighbors_[c][i] < first_cell_[g] ||
-                                       neighbors_[c][i] >= first_cell_[g] + cell_count(g);
-                    local.outer = static_cast<std::uint8_t>(local.outer | unsigned{outer} << i);
-                }
-            }
         }
     });
 }

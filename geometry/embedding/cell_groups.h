@@ -23,24 +23,19 @@ namespace slabhull {
 template<int D>
 class CellGroups {
 public:
-    /// A cell by the places of its vertices in the list of its group.
-    struct LocalCell {
-        std::array<std::uint8_t, D + 1> corner;
-        std::uint8_t outer; ///< bit i: facet i is not one of two cells of the group
-    };
     static constexpr std::size_t most_cells = D == 2 ? 4 : 14;
 
     /// `test` by cell.
-    CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
-               std::span<const Neighbors<D>> neighbors, const std::vector<bool>& test);
+    CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, const std::vector<bool>& test);
 
     std::size_t tested() const { return tested_; }
     std::size_t count() const { return first_cell_.size() - 1; }
 
     Index first_cell(std::size_t group) const { return first_cell_[group]; }
-    std::size_t cell_count(std::size_t group) const { return first_local_[group + 1] - first_local_[group]; }
-    std::span<const LocalCell> cells(std::size_t group) const {
-        return {local_.data() + first_local_[group], cell_count(group)};
+    /// How many cells the groups before have.
+    std::size_t cells_before(std::size_t group) const { return cells_before_[group]; }
+    std::size_t cell_count(std::size_t group) const {
+        return cells_before_[group + 1] - cells_before_[group];
     }
     /// Ascending.
     std::span<const Index> vertices(std::size_t group) const {
@@ -60,11 +55,9 @@ private:
     void list_groups(std::size_t vertex_count);
 
     std::span<const Simplex<D>> all_cells_;
-    std::span<const Neighbors<D>> neighbors_;
     std::size_t tested_ = 0;
     Array<Index> first_cell_;
-    Array<std::size_t> first_local_;
-    Array<LocalCell> local_;
+    Array<std::size_t> cells_before_;
     Array<std::size_t> first_vertex_;
     Array<Index> vertices_;
     Array<std::size_t> first_group_;

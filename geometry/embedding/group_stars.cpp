@@ -122,7 +122,7 @@ private:
         sign_ = 0;
         std::uint32_t offset = 1;
         for (std::size_t k = 0; k < groups_.size(); ++k) {
-            const auto cells = s_.groups_.cells(groups_[k]);
+            const auto cells = s_.cells_of(groups_[k]);
             for (std::size_t c = 0; c < cells.size(); ++c) {
                 Corners corners;
                 for (std::size_t i = 0; i <= D; ++i) {
@@ -311,12 +311,31 @@ GroupStars<D>::GroupStars(std::span<const Point<D + 1>> points, std::span<const 
                           std::span<const Neighbors<D>> neighbors, const CellGroups<D>& groups,
                           const Point<D + 1>& scale)
     : points_{points}, cells_{cells}, neighbors_{neighbors}, groups_{groups}, scale_{scale} {
+    local_.resize(groups.cells_before(groups.count()));
     normals_.resize(groups.count());
     parallel_for(groups.count(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t g = begin; g < end; ++g) {
+            list_cells(g);
             normals_[g] = group_normal(g);
         }
     });
+}
+
+template<int D>
+void GroupStars<D>::list_cells(std::size_t group) {
+    const auto vertices = groups_.vertices(group);
+    const Index first = groups_.first_cell(group);
+    const std::size_t count = groups_.cell_count(group);
+    for (std::size_t k = 0; k < count; ++k) {
+        LocalCell& local = local_[groups_.cells_before(group) + k];
+        local.outer = 0;
+        for (std::size_t i = 0; i <= D; ++i) {
+            const auto place = std::find(vertices.begin(), vertices.end(), cells_[first + k][i]);
+            local.corner[i] = static_cast<std::uint8_t>(place - vertices.begin());
+            const bool outer = neighbors_[first + k][i] - first >= count;
+            local.outer = static_cast<std::uint8_t>(local.outer | unsigned{outer} << i);
+        }
+    }
 }
 
 template<int D>

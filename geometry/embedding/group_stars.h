@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -52,6 +53,16 @@ public:
     std::vector<char> prove(std::span<const Index> vertices) const;
 
 private:
+    /// A cell by the places of its vertices in the list of its group.
+    struct LocalCell {
+        std::array<std::uint8_t, D + 1> corner;
+        std::uint8_t outer; ///< bit i: facet i is not one of two cells of the group
+    };
+
+    void list_cells(std::size_t group);
+    std::span<const LocalCell> cells_of(std::size_t group) const {
+        return {local_.data() + groups_.cells_before(group), groups_.cell_count(group)};
+    }
     Point<D + 1> scaled_normal(std::size_t cell) const;
     std::array<float, D + 1> group_normal(std::size_t group) const;
 
@@ -60,6 +71,7 @@ private:
     std::span<const Neighbors<D>> neighbors_;
     const CellGroups<D>& groups_;
     Point<D + 1> scale_;
+    Array<LocalCell> local_;
     Array<std::array<float, D + 1>> normals_; ///< of the groups, of unit length, in scaled coordinates
 
     template<int>

@@ -36,7 +36,7 @@ public:
                     const AdjacencyView<D>& adjacency, std::size_t limit)
         : points_{points}, cells_{cells}, adjacency_{adjacency}, limit_{limit}, scale_{scale_of_cells<D>(
                                                                                     points, cells)},
-          cell_pairs_{points, cells, scale_}, groups_{cells, points.size(), neighbors(), select()} {}
+          cell_pairs_{points, cells, scale_}, groups_{cells, points.size(), select()} {}
 
     HullEmbedding<D> run() {
         prove_stars();
@@ -175,17 +175,12 @@ private:
         return none ? Box<D + 1>{} : box_of<D>(cells_[cell], points_);
     }
 
-    Array<Box<D + 1>> group_boxes() const {
-        Array<Box<D + 1>> boxes;
-        boxes.assign(groups_.tested(), Box<D + 1>{});
-        parallel_for(boxes.size(), 1 << 12, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t g = begin; g < end; ++g) {
-                for (const Index v : groups_.vertices(g)) {
-                    boxes[g].include(points_[v]);
-                }
-            }
-        });
-        return boxes;
+    Box<D + 1> group_box(std::size_t group) const {
+        Box<D + 1> box;
+        for (const Index v : groups_.vertices(group)) {
+            box.include(points_[v]);
+        }
+        return box;
     }
 
     /// The clouds of some groups, those used last.
@@ -210,7 +205,7 @@ private:
 
     /// Groups that touch are left out: they are in a star.
     void pair_apart() {
-        const BoxTree<D + 1> tree{group_boxes()};
+        const BoxTree<D + 1> tree{groups_.tested(), [&](std::size_t group) { return group_box(group); }};
         in_rounds(tree.blocks(), [&](std::size_t block, Piece<D>& piece) {
             Clouds clouds;
             tree.find_pairs(block, [&](Index first, Index second) {

@@ -9,16 +9,12 @@ namespace slabhull::io {
 
 namespace {
 
-/// Keeps the rows that have a number, in their order.
 template<class Values>
-void keep_numbered(Values& values, const Array<Index>& number, std::size_t width) {
-    std::size_t kept = 0;
-    for (std::size_t row = 0; row < number.size(); ++row) {
-        for (std::size_t k = 0; number[row] != no_index && k < width; ++k) {
-            values[kept++] = values[row * width + k];
-        }
+void keep_rows(Values& values, const Array<Index>& rows) { // which ascend
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        values[k] = values[rows[k]];
     }
-    values.resize(kept);
+    values.resize(rows.size());
 }
 
 void renumber(Soup& soup, const Array<Index>& number) {
@@ -26,12 +22,16 @@ void renumber(Soup& soup, const Array<Index>& number) {
         soup.point_tags.resize(soup.points.size());
         std::iota(soup.point_tags.begin(), soup.point_tags.end(), std::int64_t{0});
     }
-    keep_numbered(soup.points, number, 1);
-    keep_numbered(soup.point_tags, number, 1);
+    Array<Index> kept;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+        if (number[v] != no_index) {
+            kept.push_back(static_cast<Index>(v));
+        }
+    }
+    keep_rows(soup.points, kept);
+    keep_rows(soup.point_tags, kept);
     for (DataArray& array : soup.point_data) {
-        std::visit(
-            [&](auto& values) { keep_numbered(values, number, static_cast<std::size_t>(array.components)); },
-            array.values);
+        array.keep_rows(kept);
     }
     for (SimplexBlock& block : soup.simplices) {
         std::transform(block.vertices.begin(), block.vertices.end(), block.vertices.begin(),

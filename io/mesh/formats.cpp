@@ -76,8 +76,7 @@ bool are_reals(const DataArray& array, const char* name, int components = 1) {
 }
 
 bool are_integers(const DataArray& array, const char* name) {
-    return array.name == name && array.components == 1 &&
-           std::holds_alternative<Array<std::int64_t>>(array.values);
+    return array.name == name && array.components == 1 && std::holds_alternative<IntegerList>(array.values);
 }
 
 bool medit_stores(const Soup&, ArrayAssociation association, const DataArray& array,
@@ -168,7 +167,7 @@ FormatTable make_table() {
          .title = "partitioned VTU",
          .extensions = {".pvtu"},
          .signatures = {},
-         .read = read_pvtu,
+         .read = {read_pvtu, read_pvtu},
          .write = write_pvtu_as,
          .features = vtu_features,
          .variants = pvtu_variants},
@@ -192,7 +191,7 @@ FormatTable make_table() {
          .title = "TetGen",
          .extensions = {".node", ".ele", ".face", ".poly", ".smesh"},
          .signatures = {},
-         .read = read_tetgen,
+         .read = {read_tetgen, read_tetgen},
          .write = write_tetgen_as,
          .features = tetgen_features,
          .built = SLABHULL_FORMAT_TETGEN},
@@ -200,7 +199,7 @@ FormatTable make_table() {
          .title = "Medit",
          .extensions = {".mesh"},
          .signatures = {"MeshVersionFormatted"},
-         .read = read_medit,
+         .read = {read_medit, read_medit},
          .write = write_medit_as,
          .features = medit_features,
          .variants = {.four_dimensional = true},

@@ -59,6 +59,9 @@ void write_xdmf(const Path&, const MeshColumns&) {
 Soup read_tetgen(const Path&) {
     refuse_left_out("TetGen", "tetgen");
 }
+Soup read_tetgen(const Path&, const ReadOptions&) {
+    refuse_left_out("TetGen", "tetgen");
+}
 void write_tetgen(AtomicFiles&, const Path&, const MeshColumns&) {
     refuse_left_out("TetGen", "tetgen");
 }
@@ -69,6 +72,9 @@ void write_tetgen(const Path&, const MeshColumns&) {
 
 #if !SLABHULL_FORMAT_MEDIT
 Soup read_medit(const Path&) {
+    refuse_left_out("Medit", "medit");
+}
+Soup read_medit(const Path&, const ReadOptions&) {
     refuse_left_out("Medit", "medit");
 }
 void write_medit(AtomicFile&, const MeshColumns&, const MeditOptions&) {

@@ -32,7 +32,7 @@ std::string joined(const std::string& a, const std::string& b) {
 
 bool is_wide(const DataArray& array) {
     constexpr std::int64_t widest = std::int64_t{1} << 53;
-    const auto* values = std::get_if<Array<std::int64_t>>(&array.values);
+    const auto* values = std::get_if<IntegerList>(&array.values);
     return values != nullptr && std::any_of(values->begin(), values->end(), [](std::int64_t value) {
                return value > widest || value < -widest;
            });

@@ -16,7 +16,7 @@ namespace slabhull::io {
 
 namespace {
 
-using Integers = Array<std::int64_t>;
+using Integers = IntegerList;
 using Texts = std::vector<std::string>;
 
 const Integers* integers(const DataArray* array) {
@@ -80,17 +80,6 @@ void give_groups(Soup& soup, const Integers& groups) {
     }
 }
 
-template<class Values>
-void keep_rows(Values& values, const Integers& rows, std::size_t width) {
-    std::size_t kept = 0;
-    for (const std::int64_t row : rows) { // which ascend
-        for (std::size_t k = 0; k < width; ++k) {
-            values[kept++] = values[static_cast<std::size_t>(row) * width + k];
-        }
-    }
-    values.resize(kept);
-}
-
 } // namespace
 
 void settle_equal_cells(Soup& soup, const std::string& patch_array) {
@@ -103,10 +92,10 @@ void settle_mixed_cells(Soup& soup, const std::string& patch_array) {
     if (const Integers* groups = find_groups(soup, patch_array)) {
         give_groups(soup, *groups);
     }
-    const Integers& rows = soup.simplices[static_cast<std::size_t>(soup.top_dimension())].tags;
+    const auto& tags = soup.simplices[static_cast<std::size_t>(soup.top_dimension())].tags;
+    const Array<Index> rows(tags.begin(), tags.end());
     for (DataArray& array : soup.cell_data) {
-        std::visit([&](auto& values) { keep_rows(values, rows, static_cast<std::size_t>(array.components)); },
-                   array.values);
+        array.keep_rows(rows);
     }
 }
 

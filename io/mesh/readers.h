@@ -13,6 +13,9 @@ namespace slabhull::io {
 Soup read_msh(const std::filesystem::path& path, const ReadOptions& options);
 Soup read_vtu(const std::filesystem::path& path, const ReadOptions& options);
 Soup read_vtk(const std::filesystem::path& path, const ReadOptions& options);
+Soup read_pvtu(const std::filesystem::path& path, const ReadOptions& options);
 Soup read_xdmf(const std::filesystem::path& path, const ReadOptions& options);
+Soup read_tetgen(const std::filesystem::path& path, const ReadOptions& options);
+Soup read_medit(const std::filesystem::path& path, const ReadOptions& options);
 
 } // namespace slabhull::io

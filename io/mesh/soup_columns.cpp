@@ -54,10 +54,8 @@ std::vector<DataColumn> columns_of(const std::vector<DataArray>& arrays) {
         if (const auto* reals = std::get_if<Array<double>>(&array.values)) {
             columns.push_back({array.name, Scalar::float64,
                                Column<double>::over(std::span<const double>{*reals}, array.components)});
-        } else if (const auto* integers = std::get_if<Array<std::int64_t>>(&array.values)) {
-            columns.push_back(
-                {array.name, Scalar::int64,
-                 Column<std::int64_t>::over(std::span<const std::int64_t>{*integers}, array.components)});
+        } else if (const auto* integers = std::get_if<IntegerList>(&array.values)) {
+            columns.push_back({array.name, Scalar::int64, integer_column(*integers, array.components)});
         }
     }
     return columns;

@@ -6,6 +6,8 @@
 #include "io/files/comments.h"
 #include "io/files/file_cursor.h"
 #include "io/mesh/cell_groups.h"
+#include "io/mesh/corners_only.h"
+#include "io/mesh/readers.h"
 
 #include <algorithm>
 #include <array>
@@ -40,13 +42,15 @@ constexpr std::array passed_sections{
     PassedSection{"SubDomainFromMesh", 4},
 };
 
-constexpr std::array<std::string_view, 8> refused_sections{"Quadrilaterals", "Hexahedra",   "Hexaedra",
-                                                           "Prisms",         "Pyramids",    "EdgesP2",
-                                                           "TrianglesP2",    "TetrahedraP2"};
+constexpr std::array<std::string_view, 5> refused_sections{"Quadrilaterals", "Hexahedra", "Hexaedra",
+                                                           "Prisms", "Pyramids"};
 
 class MeditReader {
 public:
-    MeditReader(std::string_view bytes, const std::string& path) : in_{bytes, path} { soup_.path = path; }
+    MeditReader(std::string_view bytes, const std::string& path, const ReadOptions& options)
+        : in_{bytes, path}, options_{options} {
+        soup_.path = path;
+    }
 
     Soup read() {
         read_head();
@@ -54,6 +58,7 @@ public:
         }
         in_.require(seen_.contains("Vertices"), "there is no section Vertices");
         list_groups_in_use(soup_);
+        corners_only_.finish(soup_);
         return std::move(soup_);
     }
 
@@ -87,7 +92,11 @@ private:
         if (name == "Vertices") {
             read_vertices();
         } else if (const auto dimension = simplex_dimension(name)) {
-            read_simplices(*dimension, name);
+            read_simplices(*dimension, name, *dimension + 1);
+        } else if (const auto curved = name.ends_with("P2")
+                                           ? simplex_dimension(name.substr(0, name.size() - 2))
+                                           : std::nullopt) {
+            read_simplices(*curved, name, (*curved + 1) * (*curved + 2) / 2);
         } else if (std::find(refused_sections.begin(), refused_sections.end(), name) !=
                    refused_sections.end()) {
             in_.require(count_of(name.c_str(), 1) == 0, name + " are not read; only straight simplices are");
@@ -158,22 +167,32 @@ private:
         return x;
     }
 
-    void read_simplices(std::size_t dimension, const std::string& name) {
+    /// Those of second order have nodes between their corners, which come first.
+    void read_simplices(std::size_t dimension, const std::string& name, std::size_t nodes) {
         in_.require(seen_.contains("Vertices"), "Vertices were expected before " + name);
         SimplexBlock& block = soup_.simplices[dimension];
-        const std::size_t count = count_of(name.c_str(), dimension + 2);
-        checked_index(count, name.c_str());
-        block.vertices.resize(count * (dimension + 1));
-        block.physical.resize(count);
+        const std::size_t count = count_of(name.c_str(), nodes + 1);
+        const bool curved = nodes > dimension + 1;
+        if (curved && count > 0 && !options_.linear) {
+            in_.fail(fmt::format("{} are of second order; {}", name, how_to_take_corners));
+        }
+        checked_index(block.physical.size() + count, name.c_str());
+        corners_only_.add_cells(curved ? count : 0);
+        block.vertices.reserve(block.vertices.size() + count * (dimension + 1));
         for (std::size_t i = 0; i < count; ++i) {
             skip_comments(in_);
-            for (std::size_t k = 0; k <= dimension; ++k) {
-                block.vertices[i * (dimension + 1) + k] = read_vertex_of(name, i);
+            for (std::size_t k = 0; k < nodes; ++k) {
+                const Index vertex = read_vertex_of(name, i);
+                if (k <= dimension) {
+                    block.vertices.push_back(vertex);
+                } else {
+                    corners_only_.add_between(vertex, soup_.points.size());
+                }
             }
-            block.physical[i] = in_.parsed<std::int32_t>("a reference");
-            if (block.physical[i] < 0) {
+            block.physical.push_back(in_.parsed<std::int32_t>("a reference"));
+            if (block.physical.back() < 0) {
                 in_.fail(fmt::format("{} number {} has the negative reference {}", name, i + 1,
-                                     block.physical[i]));
+                                     block.physical.back()));
             }
         }
     }
@@ -188,6 +207,8 @@ private:
     }
 
     FileCursor in_;
+    const ReadOptions& options_;
+    CornersOnly corners_only_;
     Soup soup_;
     std::size_t dimension_ = 3; ///< of space
     std::set<std::string> seen_;
@@ -196,8 +217,12 @@ private:
 } // namespace
 
 Soup read_medit(const std::filesystem::path& path) {
+    return read_medit(path, ReadOptions{});
+}
+
+Soup read_medit(const std::filesystem::path& path, const ReadOptions& options) {
     const Array<char> bytes = read_bytes(path);
-    return MeditReader{{bytes.data(), bytes.size()}, path.string()}.read();
+    return MeditReader{{bytes.data(), bytes.size()}, path.string(), options}.read();
 }
 
 } // namespace slabhull::io

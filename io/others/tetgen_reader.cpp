@@ -5,6 +5,8 @@
 #include "io/files/file_cursor.h"
 #include "io/files/percent_text.h"
 #include "io/mesh/cell_groups.h"
+#include "io/mesh/corners_only.h"
+#include "io/mesh/readers.h"
 #include "io/others/tetgen_names.h"
 
 #include <algorithm>
@@ -68,6 +70,19 @@ struct TetgenFile {
         }
     }
 
+    std::size_t words_in_row() {
+        in.skip_blanks();
+        const std::string_view rest = in.rest();
+        std::size_t words = 0;
+        bool within = false;
+        for (std::size_t k = 0; k < rest.size() && rest[k] != '\n'; ++k) {
+            const bool blank = is_blank(rest[k]) || rest[k] == ',';
+            words += !blank && !within ? 1 : 0;
+            within = !blank;
+        }
+        return words;
+    }
+
     bool row_ends() const {
         const std::string_view rest = in.rest();
         const std::size_t next = rest.find_first_not_of(" \t\r");
@@ -95,9 +110,9 @@ public:
             }
         }
         for (DataArray& array : arrays_) {
-            std::visit(
-                [&](auto& values) { values.reserve(rows * static_cast<std::size_t>(array.components)); },
-                array.values);
+            if (auto* reals = std::get_if<Array<double>>(&array.values)) {
+                reals->reserve(rows * static_cast<std::size_t>(array.components));
+            }
         }
     }
 
@@ -107,7 +122,7 @@ public:
                 if (auto* reals = std::get_if<Array<double>>(&array.values)) {
                     reals->push_back(in.parsed<double>("an attribute"));
                 } else {
-                    std::get<Array<std::int64_t>>(array.values)
+                    std::get<IntegerList>(array.values)
                         .push_back(in.parsed<std::int64_t>("an integer attribute"));
                 }
             }
@@ -142,7 +157,7 @@ private:
             }
             DataArray array{percent_decoded(word.substr(0, first)), components, Array<double>{}};
             if (type == "integer") {
-                array.values = Array<std::int64_t>{};
+                array.values = IntegerList{};
             }
             arrays_.push_back(std::move(array));
         }
@@ -154,7 +169,10 @@ private:
 
 class TetgenReader {
 public:
-    explicit TetgenReader(const std::filesystem::path& path) : path_{path} { soup_.path = path.string(); }
+    TetgenReader(const std::filesystem::path& path, const ReadOptions& options)
+        : path_{path}, options_{options} {
+        soup_.path = path.string();
+    }
 
     Soup read() {
         const std::string extension = lower_extension(path_);
@@ -170,6 +188,7 @@ public:
                 "{}: a TetGen file called .node, .ele, .face, .poly or .smesh was expected", path_.string()));
         }
         list_groups_in_use(soup_);
+        corners_only_.finish(soup_);
         return std::move(soup_);
     }
 
@@ -271,20 +290,27 @@ private:
     // --- simplices ---
 
     void read_cells(TetgenFile& file) {
-        const auto [claimed, corners, attribute_count] = file.counts<3>({0, 4, 0});
+        const auto [claimed, nodes, attribute_count] = file.counts<3>({0, 4, 0});
+        const bool curved = nodes == 6 || nodes == 10;
+        const std::size_t corners = nodes == 10 ? 4 : nodes == 6 ? 3 : nodes;
         if ((corners != 3 && corners != 4) || attribute_count > most_attributes) {
             file.in.fail(
                 fmt::format("{} corners and {} attributes: only tetrahedra of 4 corners and triangles of 3 "
                             "are read",
-                            corners, attribute_count));
+                            nodes, attribute_count));
         }
-        const std::size_t rows = file.rows(claimed, 1 + corners + attribute_count, "cells");
+        if (curved) {
+            require_linear(file, fmt::format("cells of {} nodes are of second order", nodes));
+        }
+        const std::size_t rows = file.rows(claimed, 1 + nodes + attribute_count, "cells");
         checked_index(rows, "cells");
         SimplexBlock& block = soup_.simplices[corners - 1];
         block.vertices.reserve(rows * corners);
+        corners_only_.add_cells(curved ? rows : 0);
         Attributes attributes{file.attributes, attribute_count, rows};
         for (std::size_t row = 0; row < rows; ++row) {
             read_simplex(file, block, corners, row, "cell");
+            pass_between(file, nodes - corners, row, "cell");
             attributes.read_row(file.in);
             file.end_row("cell", row + first());
         }
@@ -297,12 +323,12 @@ private:
         const auto found =
             std::find_if(soup_.cell_data.begin(), soup_.cell_data.end(), [](const DataArray& array) {
                 return array.name == group_attribute && array.components == 1 &&
-                       std::holds_alternative<Array<std::int64_t>>(array.values);
+                       std::holds_alternative<IntegerList>(array.values);
             });
         if (found == soup_.cell_data.end()) {
             return;
         }
-        for (const std::int64_t number : std::get<Array<std::int64_t>>(found->values)) {
+        for (const std::int64_t number : std::get<IntegerList>(found->values)) {
             block.physical.push_back(group_of(number));
         }
         soup_.cell_data.erase(found);
@@ -322,6 +348,19 @@ private:
         add_tag(block, row);
     }
 
+    /// The nodes of a curved simplex that follow its corners.
+    void pass_between(TetgenFile& file, std::size_t count, std::size_t row, const char* what) {
+        for (std::size_t k = 0; k < count; ++k) {
+            corners_only_.add_between(vertex(file, row, what), soup_.points.size());
+        }
+    }
+
+    void require_linear(TetgenFile& file, const std::string& found) const {
+        if (!options_.linear) {
+            file.in.fail(fmt::format("{}; {}", found, how_to_take_corners));
+        }
+    }
+
     void add_tag(SimplexBlock& block, std::size_t row) const {
         if (first_ == 1) {
             block.tags.push_back(static_cast<std::int64_t>(row) + 1);
@@ -337,14 +376,27 @@ private:
         return static_cast<Index>(given - first_);
     }
 
-    /// With -nn TetGen adds the cells on both sides, of which the header tells nothing: they are passed over.
+    /// With -nn TetGen adds the cells on both sides, with -o2 three nodes between the corners. The header
+    /// tells nothing of either, the number of words in a row does. The cells are passed over.
     void read_faces(TetgenFile& file) {
         const auto [claimed, markers] = file.counts<2>({0, 0});
+        const std::size_t marks = markers > 0 ? 1 : 0;
         const std::size_t rows = file.rows(claimed, 4, "triangles");
         checked_index(rows, "triangles");
         SimplexBlock& block = soup_.simplices[2];
         for (std::size_t row = 0; row < rows; ++row) {
+            const std::size_t words = file.words_in_row();
+            const bool curved = words == 7 + marks || words == 9 + marks;
+            if (!curved && words != 4 + marks && words != 6 + marks) {
+                file.in.fail(fmt::format("the row of triangle {} has {} values", row + first(), words));
+            }
             read_simplex(file, block, 3, row, "triangle");
+            if (curved) {
+                require_linear(file,
+                               fmt::format("triangle {} has 6 nodes, it is of second order", row + first()));
+                pass_between(file, 3, row, "triangle");
+                corners_only_.add_cells(1);
+            }
             if (markers > 0) {
                 add_marker(file.in.parsed<std::int64_t>("a marker"));
             }
@@ -501,6 +553,8 @@ private:
     static constexpr std::uint64_t most_attributes = 1000;
 
     std::filesystem::path path_;
+    const ReadOptions& options_;
+    CornersOnly corners_only_;
     Soup soup_;
     std::int64_t first_ = 0; ///< where numbers start
     Array<std::int64_t> markers_;
@@ -509,7 +563,11 @@ private:
 } // namespace
 
 Soup read_tetgen(const std::filesystem::path& path) {
-    return TetgenReader{path}.read();
+    return read_tetgen(path, ReadOptions{});
+}
+
+Soup read_tetgen(const std::filesystem::path& path, const ReadOptions& options) {
+    return TetgenReader{path, options}.read();
 }
 
 } // namespace slabhull::io

@@ -104,6 +104,17 @@ void require_vertices(const SpaceTimeSoup& soup, const Array<Index>& vertices, s
     }
 }
 
+void require_finite(const SpaceTimeSoup& soup) {
+    const auto bad =
+        std::find_if(soup.points.begin(), soup.points.end(), [](double x) { return !std::isfinite(x); });
+    if (bad != soup.points.end()) {
+        const auto vertex = (bad - soup.points.begin()) / soup.dimension;
+        throw InputError{
+            fmt::format("{}: vertex {} has a coordinate that is not a finite number", soup.path, vertex),
+            {{"vertex", vertex, {}}}};
+    }
+}
+
 } // namespace
 
 bool is_space_time_file(const std::filesystem::path& path) {
@@ -127,6 +138,7 @@ SpaceTimeSoup read_space_time(const std::filesystem::path& path) {
     const auto width = static_cast<std::size_t>(soup.dimension);
     require_vertices(soup, soup.cells, width + 1, "cell");
     require_vertices(soup, soup.facets, width, "facet");
+    require_finite(soup);
     return soup;
 }
 

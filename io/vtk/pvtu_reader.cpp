@@ -2,6 +2,8 @@
 #include "slabhull/io/files.h"
 
 #include "io/mesh/mesh_pieces.h"
+#include "io/mesh/mixed_cells.h"
+#include "io/mesh/readers.h"
 #include "io/vtk/vtu_pieces.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/index.h"
@@ -36,9 +38,10 @@ public:
             fail(piece, "its cells are not of the kind of those in the pieces before");
         }
         add_cells(piece);
-        append(all_.points, piece.points);
+        all_.points.insert(all_.points.end(), piece.points.begin(), piece.points.end());
         add_data(all_.point_data, piece, piece.point_data);
         add_data(all_.cell_data, piece, piece.cell_data);
+        all_.remarks.insert(all_.remarks.end(), piece.remarks.begin(), piece.remarks.end());
     }
 
     Soup joined() && {
@@ -49,11 +52,6 @@ public:
 private:
     [[noreturn]] void fail(const Soup& piece, const std::string& text) const {
         throw InputError(fmt::format("{}: piece {}: {}", path_, piece.path, text));
-    }
-
-    template<class Values>
-    static void append(Values& all, const Values& more) {
-        all.insert(all.end(), more.begin(), more.end());
     }
 
     void add_cells(const Soup& piece) {
@@ -79,11 +77,7 @@ private:
                  "its arrays differ from those of the pieces before in name, type, components or order");
         }
         for (std::size_t i = 0; i < all.size(); ++i) {
-            std::visit(
-                [&](auto& values) {
-                    append(values, std::get<std::decay_t<decltype(values)>>(more[i].values));
-                },
-                all[i].values);
+            all[i].append(more[i]);
         }
     }
 
@@ -93,7 +87,7 @@ private:
 
 // --- what several pieces have ---
 
-using Numbers = Array<std::int64_t>;
+using Numbers = IntegerList;
 
 /// The integers of that name, one for each row.
 const Numbers* numbers_called(const std::vector<DataArray>& arrays, const char* name) {
@@ -138,8 +132,7 @@ void keep_rows(Values& values, const Array<Index>& rows, std::size_t width) {
 
 void keep_rows(std::vector<DataArray>& arrays, const Array<Index>& rows) {
     for (DataArray& array : arrays) {
-        std::visit([&](auto& values) { keep_rows(values, rows, static_cast<std::size_t>(array.components)); },
-                   array.values);
+        array.keep_rows(rows);
     }
 }
 
@@ -213,6 +206,10 @@ void join_cells(Soup& soup) {
 } // namespace
 
 Soup read_pvtu(const std::filesystem::path& path) {
+    return read_pvtu(path, ReadOptions{});
+}
+
+Soup read_pvtu(const std::filesystem::path& path, const ReadOptions& options) {
     Pieces pieces{path.string()};
     std::set<std::string> seen;
     for (const std::string& source : pvtu_sources(path)) {
@@ -224,7 +221,8 @@ Soup read_pvtu(const std::filesystem::path& path) {
             throw InputError(
                 fmt::format("{}: the piece \"{}\" is named twice", path.string(), readable(source)));
         }
-        pieces.add(read_vtu_piece(path.parent_path() / source));
+        pieces.add(
+            read_vtu_piece(path.parent_path() / source, {.linear = options.linear, .patch_array = {}}));
     }
     Soup soup = std::move(pieces).joined();
     join_points(soup);
@@ -236,6 +234,7 @@ Soup read_pvtu(const std::filesystem::path& path) {
     drop_if_counting(soup.cell_data, global_cells);
     drop(soup.point_data, ghost_array);
     drop(soup.cell_data, ghost_array);
+    settle_equal_cells(soup, options.patch_array);
     return soup;
 }
 

@@ -491,7 +491,7 @@ private:
     }
 
     static void to_texts(DataArray& array) {
-        const auto* codes = std::get_if<Array<std::int64_t>>(&array.values);
+        const auto* codes = std::get_if<IntegerList>(&array.values);
         if (codes == nullptr) {
             return;
         }

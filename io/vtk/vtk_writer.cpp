@@ -86,9 +86,8 @@ void write_texts(AtomicFile& file, const std::string& name, const std::vector<st
 void write_array(AtomicFile& file, const DataArray& data) {
     if (const auto* texts = std::get_if<std::vector<std::string>>(&data.values)) {
         write_texts(file, data.name, *texts);
-    } else if (const auto* integers = std::get_if<Array<std::int64_t>>(&data.values)) {
-        write_array<std::int64_t>(file, data.name,
-                                  Column<std::int64_t>::over(std::span{*integers}, data.components));
+    } else if (const auto* integers = std::get_if<IntegerList>(&data.values)) {
+        write_array<std::int64_t>(file, data.name, integer_column(*integers, data.components));
     } else {
         const auto& reals = std::get<Array<double>>(data.values);
         write_array<double>(file, data.name, Column<double>::over(std::span{reals}, data.components));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/io/read_options.h"
 #include "slabhull/io/soup.h"
 
 #include <filesystem>
@@ -9,8 +10,9 @@
 
 namespace slabhull::io {
 
-/// Like read_vtu(), but a file without points and cells is an empty soup: parallel writers leave such.
-Soup read_vtu_piece(const std::filesystem::path& path);
+/// Like read_vtu(), but a file without points and cells is an empty soup: parallel writers leave such. Curved
+/// cells, where they are read and all of one kind, have no numbers of their own.
+Soup read_vtu_piece(const std::filesystem::path& path, const ReadOptions& options);
 
 /// The files that a .pvtu names, as it names them. Throws InputError.
 std::vector<std::string> pvtu_sources(const std::filesystem::path& path);

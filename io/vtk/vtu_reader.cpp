@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <concepts>
@@ -552,7 +553,7 @@ private:
         } else if (type_of(node).starts_with("Float")) {
             array.values = Array<double>{};
         } else {
-            array.values = Array<std::int64_t>{};
+            array.values = IntegerList{};
         }
         return array;
     }
@@ -578,30 +579,64 @@ private:
                 fail(node, fmt::format("{} values are no {} rows of {}", size, rows.value_or(0), width));
             }
         };
-        const auto append = [&]<class T>(Array<T>& all) {
-            const auto start = [&](std::uint64_t more) {
-                require_rows(more);
-                return grow(all, more, rows ? times(all_rows, width) : more);
-            };
-            values(node, type_of(node), times(rows.value_or(all_rows), width), start,
-                   [&](T* place, std::uint64_t i, auto value) {
-                       if constexpr (std::integral<T> && std::same_as<decltype(value), std::uint64_t>) {
-                           if (!std::in_range<T>(value)) {
-                               fail(node, fmt::format("{} is too large", value));
-                           }
-                       }
-                       place[i] = static_cast<T>(value);
-                   });
-        };
+        const std::uint64_t most = times(rows.value_or(all_rows), width);
         if (auto* strings = std::get_if<std::vector<std::string>>(&array.values)) {
             std::vector<std::string> more = texts(node, rows ? any_count : all_rows);
             require_rows(more.size());
             std::move(more.begin(), more.end(), std::back_inserter(*strings));
         } else if (auto* reals = std::get_if<Array<double>>(&array.values)) {
-            append(*reals);
+            const auto start = [&](std::uint64_t more) {
+                require_rows(more);
+                return grow(*reals, more, rows ? times(all_rows, width) : more);
+            };
+            values(node, type_of(node), most, start,
+                   [](double* place, std::uint64_t i, auto value) { place[i] = static_cast<double>(value); });
         } else {
-            append(std::get<Array<std::int64_t>>(array.values));
+            auto& all = std::get<IntegerList>(array.values);
+            IntegerList more = integers(node, most, require_rows);
+            if (all.empty()) {
+                all = std::move(more);
+            } else {
+                all.append_list(more);
+            }
         }
+    }
+
+    /// In 32 bits where all fit, as they mostly do whatever their type is; else the array is read once more.
+    template<class RequireRows>
+    IntegerList integers(const pugi::xml_node& node, std::uint64_t most, const RequireRows& require_rows) {
+        std::atomic<bool> all_fit = true;
+        const std::uint64_t consumed = consumed_;
+        Array<std::int32_t> narrow = integers<std::int32_t>(
+            node, most, require_rows, [&](auto) { all_fit.store(false, std::memory_order_relaxed); });
+        if (all_fit) {
+            return narrow;
+        }
+        narrow = {};
+        consumed_ = consumed;
+        return integers<std::int64_t>(node, most, require_rows,
+                                      [&](auto value) { fail(node, fmt::format("{} is too large", value)); });
+    }
+
+    /// Calls too_large(value) for those that do not fit, from several threads.
+    template<class T, class RequireRows, class TooLarge>
+    Array<T> integers(const pugi::xml_node& node, std::uint64_t most, const RequireRows& require_rows,
+                      const TooLarge& too_large) {
+        Array<T> all;
+        const auto start = [&](std::uint64_t count) {
+            require_rows(count);
+            return grow(all, count, count);
+        };
+        values(node, type_of(node), most, start, [&](T* place, std::uint64_t i, auto value) {
+            if constexpr (std::integral<decltype(value)>) { // which they are here
+                if (std::in_range<T>(value)) {
+                    place[i] = static_cast<T>(value);
+                } else {
+                    too_large(value);
+                }
+            }
+        });
+        return all;
     }
 
     std::vector<std::string> texts(const pugi::xml_node& node, std::uint64_t most) {
@@ -651,10 +686,16 @@ Soup read_vtu(const std::filesystem::path& path, const ReadOptions& options) {
     return VtuReader{file, options}.read(false);
 }
 
-Soup read_vtu_piece(const std::filesystem::path& path) {
+Soup read_vtu_piece(const std::filesystem::path& path, const ReadOptions& options) {
     FileBytes file{path};
-    const ReadOptions options;
-    return VtuReader{file, options}.read(true);
+    Soup soup = VtuReader{file, options}.read(true);
+    const auto kinds = std::count_if(soup.simplices.begin(), soup.simplices.end(),
+                                     [](const SimplexBlock& block) { return !block.vertices.empty(); });
+    if (kinds == 1) {
+        soup.simplices[static_cast<std::size_t>(soup.top_dimension())].tags = {};
+        soup.point_tags = {};
+    }
+    return soup;
 }
 
 std::vector<std::string> pvtu_sources(const std::filesystem::path& path) {

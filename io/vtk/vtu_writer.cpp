@@ -88,9 +88,8 @@ StoredArray stored(const DataArray& data) {
         return {vtk_name<std::uint8_t>(),           data.name, 1, bytes.size(), 1, fill,
                 fmt::format(" {}=\"1\"", text_mark)};
     }
-    if (const auto* integers = std::get_if<Array<std::int64_t>>(&data.values)) {
-        return stored<std::int64_t>(
-            data.name, Column<std::int64_t>::over(std::span<const std::int64_t>{*integers}, data.components));
+    if (const auto* integers = std::get_if<IntegerList>(&data.values)) {
+        return stored<std::int64_t>(data.name, integer_column(*integers, data.components));
     }
     const auto& reals = std::get<Array<double>>(data.values);
     return stored<double>(data.name, Column<double>::over(std::span<const double>{reals}, data.components));

@@ -511,8 +511,9 @@ private:
             array.values.emplace<Array<double>>(item.count);
             take(item, std::get<Array<double>>(array.values).data(), width, width);
         } else {
-            array.values.emplace<Array<std::int64_t>>(item.count);
-            take(item, std::get<Array<std::int64_t>>(array.values).data(), width, width);
+            Array<std::int64_t> numbers(item.count);
+            take(item, numbers.data(), width, width);
+            array.values = IntegerList{std::move(numbers)};
         }
         return array;
     }

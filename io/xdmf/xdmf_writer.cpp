@@ -59,9 +59,8 @@ Dataset dataset(const DataArray& data) {
                     bytes.copy(out, end - begin, begin);
                 }};
     }
-    if (const auto* integers = std::get_if<Array<std::int64_t>>(&data.values)) {
-        return dataset<std::int64_t>(Hdf5Type::int64,
-                                     Column<std::int64_t>::over(std::span{*integers}, data.components));
+    if (const auto* integers = std::get_if<IntegerList>(&data.values)) {
+        return dataset<std::int64_t>(Hdf5Type::int64, integer_column(*integers, data.components));
     }
     const auto& reals = std::get<Array<double>>(data.values);
     return dataset<double>(Hdf5Type::float64, Column<double>::over(std::span{reals}, data.components));

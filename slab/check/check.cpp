@@ -212,8 +212,8 @@ HullColumns<D> columns_of(const Hull<D>& hull) {
     columns.layer = layer_column(hull);
     columns.neighbors = neighbor_column(std::span<const Neighbors<D>>{hull.neighbors});
     columns.neighbor_table = hull.neighbors;
-    columns.vertex_id = id_column(hull.vertex_ids);
-    columns.track_id = id_column(hull.track_ids);
+    columns.vertex_id = integer_column(hull.vertex_ids);
+    columns.track_id = integer_column(hull.track_ids);
     columns.patches = hull.patches;
     columns.time = hull.time;
     return columns;

@@ -164,7 +164,7 @@ std::size_t check_layers(const HullView<D>& view, Findings& findings) {
 
 template<int D>
 void check_vertex_ids(const HullView<D>& view, Findings& findings) {
-    const IdRuns ids = read_ids(view.hull.vertex_id);
+    const IntegerList ids = read_ids(view.hull.vertex_id);
     if (ids.empty() || (ids[0] >= 0 && ids.ascending())) {
         return; // as they come from a march: no need to sort
     }

@@ -22,7 +22,7 @@ struct TrackPoint {
 
 /// Calls visit(place, id) for all of a list.
 template<class Visit>
-void each_id(const IdRuns& ids, const Visit& visit) {
+void each_id(const IntegerList& ids, const Visit& visit) {
     constexpr std::size_t batch = 1 << 12;
     std::array<std::int64_t, batch> values;
     for (std::size_t begin = 0; begin < ids.size(); begin += batch) {
@@ -35,7 +35,7 @@ void each_id(const IdRuns& ids, const Visit& visit) {
 }
 
 /// First and last track of some parts into which the tracks' range is cut, so that few are listed at once.
-std::vector<std::array<TrackId, 2>> parts_of_range(const IdRuns& tracks) {
+std::vector<std::array<TrackId, 2>> parts_of_range(const IntegerList& tracks) {
     constexpr TrackId count = 8;
     TrackId first = std::numeric_limits<TrackId>::max();
     TrackId last = no_track;

@@ -3,7 +3,7 @@
 
 #include "core/pieces.h"
 #include "slabhull/core/column.h"
-#include "slabhull/core/id_runs.h"
+#include "slabhull/core/integer_list.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/slab/check.h"
 
@@ -122,8 +122,8 @@ Array<T> read_column(const Column<std::int64_t>& column) {
 }
 
 /// All of a column of ids or tracks.
-inline IdRuns read_ids(const Column<std::int64_t>& column) {
-    IdRuns ids;
+inline IntegerList read_ids(const Column<std::int64_t>& column) {
+    IntegerList ids;
     each_row(column, [&](std::size_t, const std::int64_t* value) { ids.push_back(*value); });
     return ids;
 }

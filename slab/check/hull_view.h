@@ -45,7 +45,7 @@ struct HullView {
     AdjacencyView<D> adjacency;
     std::array<double, 2> time{};
     RegionList region; ///< of each cell, as its vertices' times show it
-    IdRuns track;      ///< of each vertex; empty when not given
+    IntegerList track; ///< of each vertex; empty when not given
 
     std::span<const Point<D + 1>> points() const { return hull.points; }
     std::span<const Simplex<D>> cells() const { return hull.cells; }

@@ -4,8 +4,10 @@
 #include "slabhull/core/error.h"
 #include "slabhull/core/index.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
+#include <sys/mman.h>
 
 using namespace slabhull;
 
@@ -32,6 +34,26 @@ TEST_CASE("large arrays lie in huge-page aligned memory and keep their values wh
     std::iota(numbers.begin(), numbers.end(), 0U);
     numbers.resize(std::size_t{5} << 20);
     CHECK(numbers[(std::size_t{3} << 20) - 1] == (3U << 20) - 1);
+}
+
+TEST_CASE("an array that is shortened gives its memory back and keeps the rest", "[array]") {
+    constexpr std::size_t size = std::size_t{64} << 20;
+    Array<char> bytes;
+    bytes.assign(size, 'a');
+    const auto resident = [&](std::size_t begin) {
+        std::vector<unsigned char> pages((size - begin) / 4096);
+        REQUIRE(::mincore(bytes.data() + begin, size - begin, pages.data()) == 0);
+        return std::count_if(pages.begin(), pages.end(), [](unsigned char page) { return (page & 1) != 0; });
+    };
+    constexpr std::size_t kept = (std::size_t{20} << 20) + 5;
+    shorten(bytes, kept);
+    CHECK(bytes.size() == kept);
+    CHECK(std::count(bytes.begin(), bytes.end(), 'a') == kept);
+    CHECK(resident(std::size_t{22} << 20) == 0);
+    shorten(bytes, 0);
+    CHECK(resident(0) == 0);
+    bytes.assign(size, 'b');
+    CHECK(bytes.back() == 'b');
 }
 
 TEST_CASE("a count that does not fit the index type is refused by name", "[index]") {

@@ -19,7 +19,7 @@ using namespace slabhull;
 
 namespace {
 
-using Numbers = Array<std::int64_t>;
+using Numbers = IntegerList;
 
 template<int D>
 io::Soup hull_soup(const std::string& format = "vtu") {
@@ -42,15 +42,18 @@ std::size_t cell_count(const io::Soup& soup) {
 }
 
 template<class T>
-const Array<T>& values(const std::vector<io::DataArray>& arrays, const std::string& name) {
+using Values = std::conditional_t<std::is_integral_v<T>, Numbers, Array<T>>;
+
+template<class T>
+const Values<T>& values(const std::vector<io::DataArray>& arrays, const std::string& name) {
     const auto found =
         std::find_if(arrays.begin(), arrays.end(), [&](const auto& array) { return array.name == name; });
     REQUIRE(found != arrays.end());
-    return std::get<Array<T>>(found->values);
+    return std::get<Values<T>>(found->values);
 }
 template<class T>
-Array<T>& values(std::vector<io::DataArray>& arrays, const std::string& name) {
-    return const_cast<Array<T>&>(values<T>(std::as_const(arrays), name));
+Values<T>& values(std::vector<io::DataArray>& arrays, const std::string& name) {
+    return const_cast<Values<T>&>(values<T>(std::as_const(arrays), name));
 }
 
 std::string bytes_of(const io::Soup& soup) {
@@ -248,27 +251,23 @@ io::Soup torn(const io::Soup& soup) {
     const Array<Index>& vertices = soup.simplices[top(soup)].vertices;
     result.points.resize(vertices.size());
     for (io::DataArray& array : result.point_data) {
-        std::visit([&](auto& all) { all.resize(vertices.size()); }, array.values);
+        array.keep_rows(vertices);
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         result.points[i] = soup.points[vertices[i]];
         result.simplices[top(soup)].vertices[i] = static_cast<Index>(i);
-        for (std::size_t a = 0; a < soup.point_data.size(); ++a) {
-            std::visit(
-                [&](auto& all) {
-                    using Values = std::decay_t<decltype(all)>;
-                    all[i] = std::get<Values>(soup.point_data[a].values)[vertices[i]];
-                },
-                result.point_data[a].values);
-        }
     }
     Numbers& neighbors = values<std::int64_t>(result.cell_data, "neighbors");
-    std::fill(neighbors.begin(), neighbors.end(), -1);
+    neighbors = Numbers::generated(neighbors.size(), [](std::size_t) { return -1; });
     Numbers& cell = values<std::int64_t>(result.point_data, "cell");
-    for (std::size_t i = 0; i < cell.size(); ++i) {
-        cell[i] = static_cast<std::int64_t>(i / (top(soup) + 1));
-    }
+    cell = Numbers::generated(cell.size(),
+                              [&](std::size_t i) { return static_cast<std::int64_t>(i / (top(soup) + 1)); });
     return result;
+}
+
+void replace(Numbers& numbers, std::size_t place, std::int64_t value) {
+    numbers =
+        Numbers::generated(numbers.size(), [&](std::size_t k) { return k == place ? value : numbers[k]; });
 }
 
 const char* const formats[] = {"vtu", "msh"};
@@ -278,10 +277,12 @@ const char* const formats[] = {"vtu", "msh"};
 TEMPLATE_TEST_CASE_SIG("The checkers of these tests find planted faults", "[slab]", ((int D), D), 2, 3) {
     io::Soup soup = hull_soup<D>();
     CHECK(adjacency_is_right(soup));
-    ++values<std::int64_t>(soup.cell_data, "neighbors").at(5);
+    Numbers& neighbors = values<std::int64_t>(soup.cell_data, "neighbors");
+    const std::int64_t right = neighbors[5];
+    replace(neighbors, 5, right + 1);
     CHECK_FALSE(adjacency_is_right(soup));
-    --values<std::int64_t>(soup.cell_data, "neighbors").at(5);
-    values<std::int64_t>(soup.point_data, "cell").at(3) = -1;
+    replace(neighbors, 5, right);
+    replace(values<std::int64_t>(soup.point_data, "cell"), 3, -1);
     CHECK_FALSE(adjacency_is_right(soup));
     io::Soup turned = hull_soup<D>();
     std::swap(turned.simplices[D].vertices[0], turned.simplices[D].vertices[1]);
@@ -551,6 +552,6 @@ TEMPLATE_TEST_CASE_SIG("Neighbors as element tags come back as numbers from 0", 
     io::Soup good = bad;
     settle_numbers(good);
     CHECK(values<std::int64_t>(good.cell_data, "neighbors") == before);
-    values<std::int64_t>(bad.cell_data, "neighbor_1").at(0) = 999999999;
+    replace(values<std::int64_t>(bad.cell_data, "neighbor_1"), 0, 999999999);
     CHECK_THROWS_AS(settle_numbers(bad), InputError);
 }

@@ -229,6 +229,15 @@ def by_hand():
         "7 2 0 2 3\n\nboundary\n4\n3 1 0 1\n# a comment\n3 1 1 2\n4 1 2 3\n4 1 3 0\n\nvertices\n4\n2\n0 0\n1 0\n1 1\n0 1.5\n")
     put("mfem", "line", "MFEM mesh v1.0\ndimension\n1\nelements\n2\n1 1 0 1\n2 1 1 2\nboundary\n2\n1 0 0\n1 0 2\n"
         "vertices\n3\n1\n0\n0.5\n1\n")
+    put("filling", "pentatope", "MFEM mesh v1.0\n\n# a comment\ndimension\n4\n\nelements\n1\n1 6 0 1 2 3 4\n\nboundary\n2\n"
+        "1 4 0 1 2 3\n3 4 1 2 3 4\n\nvertices\n5\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 1e-3\n0 0 0 1\n")
+    put("filling", "tetrahedra", "MFEM mesh v1.0\ndimension\n3\nelements\n2\n1 4 0 1 2 3\n1 4 1 2 3 4\nboundary\n1\n2 2 0 1 2\n"
+        "vertices\n5\n3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1.5\n")
+    put("medit", "curved.mesh", "MeshVersionFormatted 2 Dimension 2 Vertices 6 0 0 0 2 0 0 0 2 0 1 0 0 1 1 0 0 1 0\n"
+        "EdgesP2 1 1 2 4 3 TrianglesP2 1 1 2 3 4 5 6 7 End\n")
+    curved = [(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, 1), (0, 1, 1)]
+    put("tetgen", "curved", bundle(ele="1 10 0\n1 1 2 3 4 5 6 7 8 9 10\n", face="1 1\n1 1 2 3 5 8 6 4\n", node="10 3 0 0\n" + "".join(
+        f"{k + 1} {x} {y} {z}\n" for k, (x, y, z) in enumerate(curved))))
     put("avro", "four", '{\n"dim":4,\n"nb_ghost": 0,\n"number": 3,\n"type": "simplex",\n"other": {"a": [1, "]}", null]},\n'
         '"vertices": [0,0,0,0.5, 1,0,0,0.5, 0,1,0,1e-3, 0,0,1,-2],\n"elements":\n[ 0, 1, 2, 3 ]\n}\n')
     put("avro", "flat", '{"elements":[0,1,2],"type":"simplex","vertices":[0,0,1,0,0,1],"number":2,"dim":2}')

@@ -99,10 +99,19 @@ void write_and_read_again(const io::Format& format, const io::Soup& soup) {
 
 // --- readers ---
 
+/// What is refused is perhaps curved, and read by its corners.
 Outcome read_mesh(const io::Format& format, const std::filesystem::path& path, std::string_view bytes) {
-    const auto soup = read_or_refuse<InputError>(format.read, path, bytes);
+    const auto read = [&format](bool linear) {
+        return [&format, linear](const std::filesystem::path& file) {
+            return format.read(file, {.linear = linear, .patch_array = {}});
+        };
+    };
+    auto soup = read_or_refuse<InputError>(read(false), path, bytes);
     if (!soup) {
-        return Outcome::refused;
+        soup = read_or_refuse<InputError>(read(true), path, bytes);
+        if (!soup) {
+            return Outcome::refused;
+        }
     }
     require(fault_of(*soup), "soup");
     write_and_read_again(format, *soup);
@@ -163,6 +172,16 @@ Outcome read_pieces(std::string_view bytes) {
     return soup ? Outcome::read : Outcome::refused;
 }
 
+/// Space-time meshes of MFEM; HDF5's are left out, as below.
+Outcome read_filling(std::string_view bytes) {
+    if (bytes.find("HDF") != bytes.npos) {
+        return Outcome::refused;
+    }
+    const auto soup = read_or_refuse<InputError>(io::read_space_time, folder().put("a.mfem", bytes), bytes);
+    require(soup ? fault_of(*soup) : "", "filling");
+    return soup ? Outcome::read : Outcome::refused;
+}
+
 /// With its values as text: HDF5's are tried in processes of their own (tests/io/xdmf.cpp damages them).
 Outcome read_xdmf(std::string_view bytes) {
     if (bytes.find("HDF") != bytes.npos) {
@@ -200,6 +219,7 @@ constexpr std::array all{
     Reader{"obj", read_format<"obj">},
     Reader{"ply", read_format<"ply">},
     Reader{"curve", read_curve},
+    Reader{"filling", read_filling},
     Reader{"csv", read_table},
     Reader{"case", read_case_file},
 };

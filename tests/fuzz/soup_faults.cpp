@@ -99,10 +99,10 @@ bool same(const io::DataArray& a, const io::DataArray& b) {
     return std::visit(
         [&b](const auto& values) {
             using Values = std::decay_t<decltype(values)>;
-            if constexpr (std::is_same_v<Values, std::vector<std::string>>) {
-                return values == std::get<Values>(b.values);
-            } else {
+            if constexpr (std::is_same_v<Values, Array<double>>) {
                 return same_bits(values, std::get<Values>(b.values));
+            } else {
+                return values == std::get<Values>(b.values);
             }
         },
         a.values);
@@ -163,6 +163,26 @@ std::string fault_of(const io::CsvTable& table) {
         std::all_of(table.values.begin(), table.values.end(), [](double x) { return std::isfinite(x); });
     const bool ascending = std::is_sorted(table.lines.begin(), table.lines.end());
     return !finite ? "a value is no finite number" : ascending ? "" : "lines do not ascend";
+}
+
+std::string fault_of(const io::SpaceTimeSoup& soup) {
+    if (soup.dimension != 3 && soup.dimension != 4) {
+        return fmt::format("dimension {}", soup.dimension);
+    }
+    const auto width = static_cast<std::size_t>(soup.dimension);
+    const std::size_t points = soup.points.size() / width;
+    const auto exists = [points](Index vertex) { return vertex < points; };
+    if (soup.points.size() % width != 0 || soup.cells.size() % (width + 1) != 0 ||
+        soup.facets.size() % width != 0 || soup.facet_attribute.size() != soup.facets.size() / width) {
+        return "rows that are not whole";
+    }
+    if (!std::all_of(soup.cells.begin(), soup.cells.end(), exists) ||
+        !std::all_of(soup.facets.begin(), soup.facets.end(), exists)) {
+        return "a vertex that does not exist";
+    }
+    const bool finite =
+        std::all_of(soup.points.begin(), soup.points.end(), [](double x) { return std::isfinite(x); });
+    return finite ? "" : "a coordinate is no finite number";
 }
 
 std::string difference(const io::Soup& before, const io::Soup& after, Compared what) {

@@ -3,6 +3,7 @@
 
 #include "slabhull/io/csv_table.h"
 #include "slabhull/io/soup.h"
+#include "slabhull/io/space_time_files.h"
 
 #include <string>
 
@@ -12,6 +13,8 @@ namespace fuzz {
 /// are the promises of soup.h: vertices that exist, finite coordinates, arrays as long as what they belong
 /// to, groups that are listed in order.
 std::string fault_of(const slabhull::io::Soup& soup);
+/// The same for a space-time mesh.
+std::string fault_of(const slabhull::io::SpaceTimeSoup& soup);
 /// The same for a table.
 std::string fault_of(const slabhull::io::CsvTable& table);
 

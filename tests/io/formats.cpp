@@ -99,11 +99,10 @@ io::Soup rich_soup(int dimension) {
                        {"wide", 1, counted(points, (std::int64_t{1} << 53) + 1)},
                        {"medit:ref", 1, counted(points, 2)},
                        {"marker", 1, counted(points, 3)}};
-    soup.cell_data = {{"number", 1, counted(cells, 3)},
-                      {"marker", 1, Array<std::int64_t>{}},
-                      {"w", 9, awkward_numbers(9 * cells)}};
-    auto& markers = std::get<Array<std::int64_t>>(soup.cell_data[1].values);
-    markers.assign(soup.simplices[top].physical.begin(), soup.simplices[top].physical.end());
+    soup.cell_data = {
+        {"number", 1, counted(cells, 3)}, {"marker", 1, IntegerList{}}, {"w", 9, awkward_numbers(9 * cells)}};
+    const auto& physical = soup.simplices[top].physical;
+    soup.cell_data[1].values = IntegerList{Array<std::int64_t>(physical.begin(), physical.end())};
     soup.field_data = {{"time", 1, Array<double>{0.1, 1.0 / 3}},
                        {"slab", 1, Array<std::int64_t>{7}},
                        {"holes", 3, Array<double>{0.5, 1.0 / 3, -2}},
@@ -166,7 +165,7 @@ void take_away_losses(const io::Format& format, io::Soup& soup, const io::WriteO
 
 /// The same numbers, those of Gmsh's files whole or not.
 bool same_values(const io::DataArray& a, const io::DataArray& b, bool as_reals) {
-    const auto* integers = std::get_if<Array<std::int64_t>>(&a.values);
+    const auto* integers = std::get_if<IntegerList>(&a.values);
     if (as_reals && integers != nullptr) {
         const auto& reals = std::get<Array<double>>(b.values);
         return std::equal(integers->begin(), integers->end(), reals.begin(), reals.end(),

@@ -97,7 +97,7 @@ TEST_CASE("References of vertices survive", "[io]") {
     io::write_medit(folder / "a.mesh", mesh);
     const io::Soup soup = io::read_medit(folder / "a.mesh");
     REQUIRE(soup.find_point_data("medit:ref") != nullptr);
-    CHECK(std::get<Array<std::int64_t>>(soup.find_point_data("medit:ref")->values) ==
+    CHECK(std::get<IntegerList>(soup.find_point_data("medit:ref")->values) ==
           Array<std::int64_t>(grid.ids.begin(), grid.ids.end()));
 }
 
@@ -144,4 +144,22 @@ TEST_CASE("A Medit file torn anywhere, or damaged at random, never does more tha
                                       2000) > 0);
     }
     CHECK(scratch::survive_damage(io::read_medit, small, folder / "a.mesh", 5000) > 0);
+}
+
+TEST_CASE("Of second-order Medit elements the corners are taken where that is asked for", "[io]") {
+    const scratch::Folder folder;
+    const std::string curved =
+        "MeshVersionFormatted 2\nDimension 3\nVertices\n11\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n.5 0 0 0\n"
+        ".5 .5 0 0\n0 .5 0 0\n0 0 .5 0\n.5 0 .5 0\n0 .5 .5 0\n1 1 1 0\nTrianglesP2\n1\n1 2 3 5 6 7 5\n"
+        "TetrahedraP2\n1\n1 2 3 4 5 6 7 8 9 10 7\nTetrahedra\n1\n2 3 4 11 8\nEnd\n";
+    const auto path = scratch::put(folder / "a.mesh", curved);
+    CHECK_THAT(scratch::refusal(io::read_medit, path),
+               Catch::Contains("TrianglesP2 are of second order") && Catch::Contains("initial.linear"));
+    const io::Soup soup = io::read_mesh(path, {true, ""});
+    CHECK(soup.points == Array<Point<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
+    CHECK(soup.simplices[3].vertices == Array<Index>{0, 1, 2, 3, 1, 2, 3, 4});
+    CHECK(soup.simplices[3].physical == std::vector<PatchNumber>{7, 8});
+    CHECK(soup.simplices[2].vertices == Array<Index>{0, 1, 2});
+    REQUIRE(soup.remarks.size() == 1);
+    CHECK_THAT(soup.remarks[0], Catch::Contains("2 curved elements") && Catch::Contains("6 points"));
 }

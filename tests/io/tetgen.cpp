@@ -55,11 +55,14 @@ std::string refusal(const std::string& changed, const std::string& text, const s
 }
 
 template<class T>
-const Array<T>& values(const io::DataArray* array) {
-    return soups::values<Array<T>>(array);
+using Values = std::conditional_t<std::is_integral_v<T>, IntegerList, Array<T>>;
+
+template<class T>
+const Values<T>& values(const io::DataArray* array) {
+    return soups::values<Values<T>>(array);
 }
 
-using Integers = Array<std::int64_t>;
+using Integers = IntegerList;
 using Reals = Array<double>;
 
 } // namespace
@@ -117,7 +120,8 @@ TEST_CASE("Faults in TetGen's files are refused with file, line and entity", "[i
     CHECK_THAT(refusal("ele", ele, "1 1 2 3 4", "1 1 2 3 0", "ele"), Contains("point 0"));
     CHECK_THAT(refusal("ele", ele, "1 1 2 3 4", "1 1 2 nan 4", "ele"), Contains("\"nan\""));
     CHECK_THAT(refusal("ele", ele, "2 5", "3 5", "ele"), Contains("cell 2 was expected, not 3"));
-    CHECK_THAT(refusal("ele", ele, "2 4 1", "2 10 1", "ele"), Contains("10 corners"));
+    CHECK_THAT(refusal("ele", ele, "2 4 1", "2 10 1", "ele"), Contains("10 nodes"));
+    CHECK_THAT(refusal("ele", ele, "2 4 1", "2 7 1", "ele"), Contains("7 corners"));
     CHECK_THAT(refusal("ele", ele, "4 10", "4 10 11", "ele"), Contains("more values"));
     CHECK_THAT(refusal("ele", ele, "4 20", "4", "ele"), Contains("an attribute was expected"));
     CHECK_THAT(refusal("ele", ele + "3 1 2 3 5 1\n"), Contains("more rows"));
@@ -194,14 +198,14 @@ TEST_CASE("Tetrahedra written as TetGen's files come back bit for bit", "[io]") 
     CHECK(soup.simplices[3].vertices == Array<Index>(grid.cells.begin(), grid.cells.end()));
     CHECK(values<double>(soup.find_point_data("t")) == Reals(grid.time.begin(), grid.time.end()));
     CHECK(values<std::int64_t>(soup.find_point_data("vertex_id")) ==
-          Integers(grid.ids.begin(), grid.ids.end()));
+          Array<std::int64_t>(grid.ids.begin(), grid.ids.end()));
     const auto& back = values<double>(soup.find_point_data("a b:c"));
     CHECK(std::signbit(back[0]));
     CHECK(std::equal(odd.begin(), odd.end(), back.begin()));
     CHECK(values<std::int64_t>(soup.find_point_data("marker")).at(3) == -4);
     CHECK(soup.find_cell_data("pair")->components == 2);
     CHECK(values<std::int64_t>(soup.find_cell_data("pair")) ==
-          Integers(grid.pairs.begin(), grid.pairs.end()));
+          Array<std::int64_t>(grid.pairs.begin(), grid.pairs.end()));
     CHECK(soup.simplices[3].physical.front() == 5);
     CHECK(soup.simplices[3].physical.back() == 9);
     CHECK(soup.groups[3] == PatchList{{2, ""}, {5, ""}, {9, ""}});
@@ -235,12 +239,11 @@ TEST_CASE("Triangles with markers, holes and adjacency of tetrahedra survive Tet
     CHECK(values<double>(soup.find_field_data("regions")) == Reals{1, 2, 3, 4, 5});
     const Files files;
     const io::Soup cells = io::read_tetgen(files.path("ele"));
-    const Integers corners(cells.simplices[3].vertices.begin(), cells.simplices[3].vertices.end());
     const auto& neighbors = values<std::int64_t>(cells.find_cell_data("neighbors"));
     io::MeshColumns both;
     both.points = Column<double>::over(std::span{cells.points.front().data(), 3 * cells.points.size()}, 3);
-    both.cells = Column<std::int64_t>::over(std::span{corners}, 4);
-    both.cell_data = {{"neighbors", io::Scalar::int64, Column<std::int64_t>::over(std::span{neighbors}, 4)}};
+    both.cells = Column<std::int64_t>::over(std::span{cells.simplices[3].vertices}, 4);
+    both.cell_data = {{"neighbors", io::Scalar::int64, integer_column(neighbors, 4)}};
     io::write_tetgen(folder / "b", both);
     CHECK(values<std::int64_t>(io::read_tetgen(folder / "b.ele").find_cell_data("neighbors")) == neighbors);
 }
@@ -298,7 +301,7 @@ TEST_CASE("TetGen meshes a surface that we write, and we read all that it saves"
     io::MeshColumns mesh;
     mesh.dimension = 2;
     mesh.points = Column<double>::over(std::span<const double>{x}, 3);
-    mesh.cells = Column<std::int64_t>::over(std::span<const std::int64_t>{corners}, 3);
+    mesh.cells = integer_column(corners, 3);
     mesh.groups = {{0, 3, 8, "sides"}, {3, 4, 6, "slope"}};
     io::AtomicFiles files_of_poly;
     io::write_tetgen(files_of_poly, folder / "p.poly", mesh);
@@ -329,3 +332,32 @@ TEST_CASE("TetGen meshes a surface that we write, and we read all that it saves"
     CHECK(soups::area(soup, 6) == Approx(std::sqrt(3.0) / 2));
 }
 #endif
+
+TEST_CASE("Of second-order TetGen files the corners are taken where that is asked for", "[io]") {
+    const Files files;
+    std::string nodes = "10 3\n";
+    for (int k = 0; k < 10; ++k) { // corners first, then the middles of 12 13 14 23 24 34
+        const std::array<double, 10> x{0, 1, 0, 0, .5, 0, 0, .5, .5, 0};
+        const std::array<double, 10> y{0, 0, 1, 0, 0, .5, 0, .5, 0, .5};
+        const std::array<double, 10> z{0, 0, 0, 1, 0, 0, .5, 0, .5, .5};
+        const auto i = static_cast<std::size_t>(k);
+        nodes += fmt::format("{} {} {} {}\n", k + 1, x[i], y[i], z[i]);
+    }
+    files.put("node", nodes);
+    files.put("ele", "1 10 1\n1 1 2 3 4 5 6 7 8 9 10 3\n");
+    files.put("neigh", "1 4\n1 -1 -1 -1 -1\n");
+    files.put("face", "2 1\n1 1 2 3 5 8 6 4\n2 1 2 4 5 9 7 -9\n");
+    CHECK_THAT(scratch::refusal(io::read_tetgen, files.path("ele")),
+               Catch::Contains("10 nodes") && Catch::Contains("initial.linear"));
+    CHECK_THAT(scratch::refusal(io::read_tetgen, files.path("face")),
+               Catch::Contains("6 nodes") && Catch::Contains("initial.linear"));
+    const io::Soup soup = io::read_mesh(files.path("ele"), {true, ""});
+    CHECK(soup.points == Array<Point<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+    CHECK(soup.simplices[3].vertices == Array<Index>{0, 1, 2, 3});
+    CHECK(soup.simplices[2].vertices == Array<Index>{0, 1, 2, 0, 1, 3});
+    CHECK(soup.simplices[2].physical == std::vector<PatchNumber>{4, 0}); // markers, not middle nodes
+    REQUIRE(soup.remarks.size() == 1);
+    CHECK_THAT(soup.remarks[0], Catch::Contains("3 curved elements") && Catch::Contains("6 points"));
+    files.put("face", "1 1\n1 1 2 3 5 8 4 4 4 4 4\n");
+    CHECK_THAT(scratch::refusal(io::read_tetgen, files.path("face")), Catch::Contains("has 11 values"));
+}

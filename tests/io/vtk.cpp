@@ -60,7 +60,7 @@ TEST_CASE("VTK's and meshio's legacy files hold the same mesh in each version an
         CHECK(soups::volume(soup) == Approx(1));
         CHECK(soup.simplices[3].vertices == gmsh.simplices[3].vertices);
         soups::check_point_data(soup);
-        CHECK(values<Array<std::int64_t>>(soup.find_cell_data("number")).at(5) == 5);
+        CHECK(values<IntegerList>(soup.find_cell_data("number")).at(5) == 5);
         CHECK(is_consistent(soup));
     }
 }
@@ -71,8 +71,8 @@ TEST_CASE("VTK's strings, attributes, names with blanks and 64-bit integers are 
         const io::Soup soup = io::read_vtk(fixture(name));
         CHECK(values<std::vector<std::string>>(soup.find_field_data("patch_name")) ==
               std::vector<std::string>{"in let", "", std::string(100, 'w')});
-        CHECK(values<Array<std::int64_t>>(soup.find_point_data("long ids")).at(3) == 1000000000003);
-        CHECK(values<Array<std::int64_t>>(soup.find_point_data("signed")).at(3) == -3);
+        CHECK(values<IntegerList>(soup.find_point_data("long ids")).at(3) == 1000000000003);
+        CHECK(values<IntegerList>(soup.find_point_data("signed")).at(3) == -3);
         CHECK(soup.find_cell_data("tensor")->components == 9);
         CHECK(values<Array<double>>(soup.find_point_data("after")).at(1) == 0.5);
     }
@@ -95,10 +95,10 @@ TEST_CASE("Mixed cells are parted by dimension, keep their numbers, and data go 
     CHECK(soup.simplices[1].vertices == Array<Index>{1, 3});
     CHECK(soup.simplices[0].vertices == Array<Index>{2});
     CHECK(soup.simplices[1].tag(0) == 2);
-    CHECK(values<Array<std::int64_t>>(soup.find_cell_data("kind")) == Array<std::int64_t>{10});
+    CHECK(values<IntegerList>(soup.find_cell_data("kind")) == Array<std::int64_t>{10});
     const io::Soup skin = read_text(surface);
     CHECK(skin.simplices[2].vertices == Array<Index>{0, 1, 2, 0, 1, 3});
-    CHECK(values<Array<std::int64_t>>(skin.find_cell_data("number")) == Array<std::int64_t>{3, 4, 5, 6});
+    CHECK(values<IntegerList>(skin.find_cell_data("number")) == Array<std::int64_t>{3, 4, 5, 6});
 }
 
 TEST_CASE("Colours and metadata are passed over, plain SCALARS need no table", "[io]") {
@@ -107,9 +107,9 @@ TEST_CASE("Colours and metadata are passed over, plain SCALARS need no table", "
                                     "0 0 0 1\nSCALARS s int\n1 2 3 4\nTEXTURE_COORDINATES u 2 float\n"
                                     "0 1 2 3 4 5 6 7\nGLOBAL_IDS g vtkIdType\n4 3 2 1\n");
     REQUIRE(soup.point_data.size() == 3);
-    CHECK(values<Array<std::int64_t>>(soup.find_point_data("s")).at(3) == 4);
+    CHECK(values<IntegerList>(soup.find_point_data("s")).at(3) == 4);
     CHECK(soup.find_point_data("u")->components == 2);
-    CHECK(values<Array<std::int64_t>>(soup.find_point_data("g")).at(0) == 4);
+    CHECK(values<IntegerList>(soup.find_point_data("g")).at(0) == 4);
 }
 
 TEST_CASE("A legacy file that we do not read is refused by name", "[io]") {
@@ -208,11 +208,11 @@ TEST_CASE("What is written as legacy VTK comes back bit for bit", "[io]") {
         CHECK(soup.simplices[top].vertices == Array<Index>(grid.cells.begin(), grid.cells.end()));
         CHECK(values<Array<double>>(soup.find_point_data("t")) ==
               Array<double>(grid.time.begin(), grid.time.end()));
-        CHECK(values<Array<std::int64_t>>(soup.find_point_data("vertex_id")) ==
+        CHECK(values<IntegerList>(soup.find_point_data("vertex_id")) ==
               Array<std::int64_t>(grid.ids.begin(), grid.ids.end()));
         REQUIRE(soup.cell_data.size() == 2);
         CHECK(soup.find_cell_data("pair")->components == 2);
-        CHECK(values<Array<std::int64_t>>(soup.find_cell_data("pair")) ==
+        CHECK(values<IntegerList>(soup.find_cell_data("pair")) ==
               Array<std::int64_t>(grid.pairs.begin(), grid.pairs.end()));
         REQUIRE(soup.field_data.size() == 3);
         CHECK(values<Array<double>>(soup.find_field_data("time")) == Array<double>{0.1, 1.0 / 3});

@@ -45,7 +45,7 @@ TEST_CASE("meshio's and VTK's files hold the same mesh in each encoding", "[io]"
         CHECK(soup.simplices[3].vertices == gmsh.simplices[3].vertices);
         soups::check_point_data(soup);
         REQUIRE(soup.find_cell_data("number") != nullptr);
-        CHECK(std::get<Array<std::int64_t>>(soup.find_cell_data("number")->values).at(5) == 5);
+        CHECK(std::get<IntegerList>(soup.find_cell_data("number")->values).at(5) == 5);
     }
 }
 
@@ -58,9 +58,9 @@ TEST_CASE("VTK's string, id and signed character arrays are read", "[io]") {
         CHECK(std::get<std::vector<std::string>>(soup.find_field_data("patch_name")->values) ==
               std::vector<std::string>{"in let", "walls"});
         REQUIRE(soup.find_point_data("ids") != nullptr);
-        CHECK(std::get<Array<std::int64_t>>(soup.find_point_data("ids")->values).at(3) == 1000000000003);
+        CHECK(std::get<IntegerList>(soup.find_point_data("ids")->values).at(3) == 1000000000003);
         REQUIRE(soup.find_point_data("signed") != nullptr);
-        CHECK(std::get<Array<std::int64_t>>(soup.find_point_data("signed")->values).at(3) == -3);
+        CHECK(std::get<IntegerList>(soup.find_point_data("signed")->values).at(3) == -3);
     }
 }
 
@@ -146,9 +146,68 @@ TEST_CASE("Of quadratic cells, the corners are taken where that is asked for", "
     CHECK(soup.point_tags == Array<std::int64_t>{0, 2, 4, 6});
     CHECK(soup.simplices[2].vertices == Array<Index>{0, 1, 2});
     CHECK(soup.simplices[1].vertices == Array<Index>{0, 1});
-    CHECK(std::get<Array<std::int64_t>>(soup.point_data[0].values) == Array<std::int64_t>{0, 2, 4, 6});
+    CHECK(std::get<IntegerList>(soup.point_data[0].values) == Array<std::int64_t>{0, 2, 4, 6});
     REQUIRE(soup.remarks.size() == 1);
     CHECK_THAT(soup.remarks[0], Catch::Contains("2 curved elements") && Catch::Contains("3 points"));
+}
+
+TEST_CASE("Of quadratic cells in pieces, the corners are taken where that is asked for", "[io]") {
+    const scratch::Folder folder;
+    const auto piece = [](const char* points, const char* numbers, const char* zones) {
+        return fmt::format(
+            "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"6\" "
+            "NumberOfCells=\"1\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">{}"
+            "</DataArray></Points><PointData><DataArray type=\"Int32\" Name=\"GlobalPointIds\">{}"
+            "</DataArray></PointData><CellData><DataArray type=\"Int32\" Name=\"zone\">{}"
+            "</DataArray></CellData><Cells>"
+            "<DataArray type=\"Int64\" Name=\"connectivity\">0 1 2 3 4 5</DataArray>"
+            "<DataArray type=\"Int64\" Name=\"offsets\">6</DataArray>"
+            "<DataArray type=\"UInt8\" Name=\"types\">22</DataArray></Cells></Piece>"
+            "</UnstructuredGrid></VTKFile>",
+            points, numbers, zones);
+    };
+    scratch::put(folder / "0.vtu", piece("0 0 0  1 0 0  0 1 0  .5 0 0  .5 .5 0  0 .5 0", "0 1 2 4 5 6", "7"));
+    scratch::put(folder / "1.vtu", piece("1 0 0  1 1 0  0 1 0  1 .5 0  .5 1 0  .5 .5 0", "1 3 2 7 8 5", "9"));
+    const auto path = scratch::put(
+        folder / "a.pvtu", "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid><Piece "
+                           "Source=\"0.vtu\"/><Piece Source=\"1.vtu\"/></PUnstructuredGrid></VTKFile>");
+    CHECK_THAT(scratch::refusal(io::read_pvtu, path),
+               Catch::Contains("quadratic triangle") && Catch::Contains("linear"));
+    const io::Soup soup = io::read_mesh(path, {true, "zone"});
+    CHECK(soup.points == Array<Point<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
+    CHECK(soup.simplices[2].vertices == Array<Index>{0, 1, 2, 1, 3, 2});
+    CHECK(soup.simplices[2].physical == std::vector<PatchNumber>{7, 9});
+    CHECK(soup.point_tags.empty());
+    CHECK(soup.remarks.size() == 2);
+}
+
+TEST_CASE("Integers take 32 bits where they fit, whatever their type, and runs hardly any", "[io]") {
+    const scratch::Folder folder;
+    constexpr std::size_t count = 3000;
+    specimens::Grid grid{3, 2};
+    io::MeshColumns mesh = grid.columns();
+    const auto add = [&](const char* name, std::int64_t factor, std::int64_t offset) {
+        mesh.field_data.push_back({name, 1, IntegerList::generated(count, [=](std::size_t k) {
+                                       return static_cast<std::int64_t>(k * k % 1009) * factor + offset;
+                                   })});
+    };
+    add("narrow", 1, -1);
+    add("wide", std::int64_t{1} << 40, 7);
+    mesh.field_data.push_back({"run", 1, IntegerList::generated(count, [](std::size_t k) {
+                                   return static_cast<std::int64_t>(k / 100);
+                               })});
+    for (const io::VtuEncoding encoding :
+         {io::VtuEncoding::raw, io::VtuEncoding::zlib, io::VtuEncoding::ascii}) {
+        io::write_vtu(folder / "a.vtu", mesh, encoding);
+        const io::Soup soup = io::read_vtu(folder / "a.vtu");
+        for (const io::DataArray& array : mesh.field_data) {
+            if (const auto* wanted = std::get_if<IntegerList>(&array.values)) {
+                const auto& found = std::get<IntegerList>(soup.find_field_data(array.name)->values);
+                CHECK(found == *wanted);
+                CHECK(found.narrow().size() == (array.name == "narrow" ? count : 0));
+            }
+        }
+    }
 }
 
 TEST_CASE("A VTU file that we do not read is refused by name", "[io]") {
@@ -242,11 +301,11 @@ TEST_CASE("What is written as VTU comes back bit for bit", "[io]") {
         REQUIRE(soup.point_data.size() == 2);
         CHECK(std::get<Array<double>>(soup.find_point_data("t")->values) ==
               Array<double>(grid.time.begin(), grid.time.end()));
-        CHECK(std::get<Array<std::int64_t>>(soup.find_point_data("vertex_id")->values) ==
+        CHECK(std::get<IntegerList>(soup.find_point_data("vertex_id")->values) ==
               Array<std::int64_t>(grid.ids.begin(), grid.ids.end()));
         REQUIRE(soup.cell_data.size() == 2);
         CHECK(soup.find_cell_data("pair")->components == 2);
-        CHECK(std::get<Array<std::int64_t>>(soup.find_cell_data("pair")->values) ==
+        CHECK(std::get<IntegerList>(soup.find_cell_data("pair")->values) ==
               Array<std::int64_t>(grid.pairs.begin(), grid.pairs.end()));
         REQUIRE(soup.field_data.size() == 3);
         CHECK(std::get<Array<double>>(soup.find_field_data("time")->values) == Array<double>{0.1, 1.0 / 3});

@@ -51,7 +51,7 @@ void check_values(const Array<double>& got, const Array<double>& expected, doubl
 void check_data(const std::vector<io::DataArray>& arrays, double tolerance) {
     for (const io::DataArray& array : arrays) {
         CAPTURE(array.name);
-        if (const auto* integers = std::get_if<Array<std::int64_t>>(&array.values)) {
+        if (const auto* integers = std::get_if<IntegerList>(&array.values)) {
             CHECK(*integers == numbers<std::int64_t>(array.name + ".i64"));
         } else {
             check_values(std::get<Array<double>>(array.values), numbers<double>(array.name + ".f64"),
@@ -67,7 +67,7 @@ std::vector<std::size_t> numbers_in_whole(const io::Soup& soup) {
         number.emplace(id, number.size());
     }
     std::vector<std::size_t> result;
-    for (const std::int64_t id : std::get<Array<std::int64_t>>(soup.find_point_data("int64")->values)) {
+    for (const std::int64_t id : std::get<IntegerList>(soup.find_point_data("int64")->values)) {
         result.push_back(number.at(id));
     }
     return result;

@@ -137,13 +137,13 @@ TEST_CASE("What is written as XDMF comes back bit for bit", "[io]") {
         CHECK(soup.point_data.size() == 2);
         CHECK(values<Array<double>>(soup.find_point_data("t")) ==
               Array<double>(grid.time.begin(), grid.time.end()));
-        CHECK(values<Array<std::int64_t>>(soup.find_point_data("vertex_id")) ==
+        CHECK(values<IntegerList>(soup.find_point_data("vertex_id")) ==
               Array<std::int64_t>(grid.ids.begin(), grid.ids.end()));
         CHECK(soup.find_cell_data("pair")->components == 2);
-        CHECK(values<Array<std::int64_t>>(soup.find_cell_data("pair")) ==
+        CHECK(values<IntegerList>(soup.find_cell_data("pair")) ==
               Array<std::int64_t>(grid.pairs.begin(), grid.pairs.end()));
         CHECK(values<Array<double>>(soup.find_field_data("time")) == Array<double>{0.1, 1.0 / 3});
-        CHECK(values<Array<std::int64_t>>(soup.find_field_data("slab")) == Array<std::int64_t>{7});
+        CHECK(values<IntegerList>(soup.find_field_data("slab")) == Array<std::int64_t>{7});
         CHECK(values<std::vector<std::string>>(soup.find_field_data("patch_name")) ==
               std::vector<std::string>{"walls & doors", "", "fan <1>"});
     }
@@ -166,7 +166,7 @@ TEST_CASE("Names that HDF5 or others would take apart, or that come twice, survi
     REQUIRE(soup.point_data.size() == names.size());
     for (std::size_t i = 0; i < names.size(); ++i) {
         CHECK(soup.point_data[i].name == names[i]);
-        CHECK(std::get<Array<std::int64_t>>(soup.point_data[i].values) ==
+        CHECK(std::get<IntegerList>(soup.point_data[i].values) ==
               Array<std::int64_t>(grid.ids.begin(), grid.ids.end()));
     }
 }
@@ -226,7 +226,7 @@ TEST_CASE("XDMF with its values as text is read: XY, attributes of each centre, 
     const io::Soup soup = read_text(text_file);
     CHECK(soup.points == Array<Point<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1.5, 0}});
     CHECK(soup.simplices[2].vertices == Array<Index>{0, 1, 2, 2, 1, 3});
-    CHECK(values<Array<std::int64_t>>(soup.find_point_data("a")) == Array<std::int64_t>{5, 6, 7, 8});
+    CHECK(values<IntegerList>(soup.find_point_data("a")) == Array<std::int64_t>{5, 6, 7, 8});
     CHECK(soup.find_cell_data("b")->components == 2);
     CHECK(values<Array<double>>(soup.find_field_data("c")) == Array<double>{0.25});
 }
@@ -257,7 +257,7 @@ TEST_CASE("HDF5's own files are read: chunks, deflate, checksums, byte orders, n
         CHECK(soup.points.at(3) == Point<3>{0, 0, 1});
         CHECK(soup.simplices[3].vertices == Array<Index>{0, 1, 2, 3});
         if (H5Tget_class(making.type) == H5T_INTEGER) {
-            CHECK(values<Array<std::int64_t>>(soup.find_point_data("v")) == Array<std::int64_t>{1, 2, 3, 4});
+            CHECK(values<IntegerList>(soup.find_point_data("v")) == Array<std::int64_t>{1, 2, 3, 4});
         } else {
             CHECK(values<Array<double>>(soup.find_point_data("v")) == Array<double>{1, 2, 3, 4});
         }

@@ -4,14 +4,18 @@
 
 #include "core/rounds.h"
 #include "geometry/embedding/cell_pairs.h"
+#include "io/scratch.h"
 #include "slab/specimens.h"
+#include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/initial.h"
+#include "slabhull/cases/run.h"
 #include "slabhull/cases/settings.h"
 #include "slabhull/slab/slab.h"
 
 #include <catch2/catch.hpp>
 
 #include <random>
+#include <regex>
 #include <set>
 
 using namespace slabhull;
@@ -122,6 +126,127 @@ Soup<D> shaken(Soup<D> hull, Random& random, double reach) {
     return hull;
 }
 
+/// Two ellipses or ellipsoids, called left and right, that move in a box, in a few layers of given length.
+template<int D>
+class TwoBodies {
+public:
+    explicit TwoBodies(unsigned seed) : random_{seed} {}
+
+    /// They stay in their half of the box, and turn by little.
+    Case apart() {
+        Case the_case = two_bodies(2.2, [&](double side) {
+            MotionSpec turned = rotation(0.5);
+            turned.centre = Numbers(D, side);
+            return sequence({turned, translation(side > 0 ? 0.5 : -0.5, 0.5)});
+        });
+        the_case.layers = 1 + static_cast<int>(random_() % 3);
+        return the_case;
+    }
+    /// They change places, which leads them through each other if they do not pass by.
+    Case changing_places() {
+        return two_bodies(1.5, [&](double side) { return translation(-2 * side, 0.4); });
+    }
+    /// Each turns about itself so far that its chords may meet.
+    Case turning() {
+        return two_bodies(2, [&](double side) {
+            MotionSpec motion = rotation(1);
+            motion.rate = (motion.rate < 0 ? -1 : 1) * (2.2 + uniform(random_, 1.4));
+            motion.centre = Numbers(D, 0.0);
+            motion.centre[0] = side;
+            return motion;
+        });
+    }
+
+private:
+    template<class MotionOf>
+    Case two_bodies(double side, const MotionOf& motion_of) {
+        Case the_case;
+        the_case.dimension = D;
+        the_case.split = D == 2 ? (random_() % 2 == 0 ? Split::centre : Split::diagonal)
+                                : std::array{Split::A, Split::B, Split::C, Split::D, Split::E}[random_() % 5];
+        the_case.layers = 1;
+        the_case.formats = {"vtu"};
+        InitialBodies bodies;
+        bodies.outer = BoxSpec{Numbers(D, -5.5), Numbers(D, 5.5), D == 2 ? 2.75 : 5.5, "walls"};
+        for (const char* name : {"left", "right"}) {
+            side = -side;
+            Numbers centre(D, 0.0);
+            centre[0] = side;
+            Numbers semi_axes(D);
+            for (double& length : semi_axes) {
+                length = 0.8 + uniform(random_, 0.35);
+            }
+            bodies.ellipsoids.push_back({centre, semi_axes, D == 2 ? 9 : 1, name});
+            the_case.motions[name] = motion_of(side);
+        }
+        the_case.initial = std::move(bodies);
+        return the_case;
+    }
+    MotionSpec translation(double along, double across) {
+        MotionSpec motion;
+        motion.kind = MotionSpec::Kind::translation;
+        motion.velocity = {along, uniform(random_, across), uniform(random_, across)};
+        motion.velocity.resize(D);
+        return motion;
+    }
+    MotionSpec rotation(double most) {
+        MotionSpec motion;
+        motion.kind = MotionSpec::Kind::rotation;
+        motion.rate = uniform(random_, most);
+        motion.axis = {uniform(random_, 1), uniform(random_, 1), 1};
+        return motion;
+    }
+    static MotionSpec sequence(std::vector<MotionSpec> steps) {
+        MotionSpec motion;
+        motion.kind = MotionSpec::Kind::sequence;
+        motion.steps = std::move(steps);
+        return motion;
+    }
+
+    Random random_;
+};
+
+template<int D>
+Soup<D> hull_of_file(const std::filesystem::path& path) {
+    io::Soup soup = io::read_mesh(path);
+    const HullArrays<D> arrays = hull_of_soup<D>(soup);
+    const HullColumns<D> columns = arrays.columns();
+    CHECK(columns.neighbor_table.size() == columns.cells.size()); // as it was read, in 32 bits
+    CHECK(arrays.region.narrow().empty());                        // in runs
+    return {arrays.points, {columns.cells.begin(), columns.cells.end()}};
+}
+
+/// Builds without a proof, so that there is a hull to look at in pairs.
+template<int D>
+Pairs pairs_without_proof(Case the_case) {
+    const scratch::Folder folder;
+    the_case.directory = folder / "out";
+    the_case.check_embedding = false;
+    run_case(the_case, {});
+    return by_pairs(hull_of_file<D>(the_case.directory / "slab_0000.vtu"));
+}
+
+/// Each crossing in the refusal is two cells that cross indeed, said with patches, place and time.
+void check_refusal(const GeometryError& refusal, const Pairs& expected) {
+    REQUIRE_FALSE(refusal.entities.empty());
+    REQUIRE(refusal.entities.size() % 2 == 0);
+    for (std::size_t k = 0; k < refusal.entities.size(); k += 2) {
+        REQUIRE(refusal.entities[k].kind == "cell");
+        REQUIRE(expected.contains({static_cast<Index>(refusal.entities[k].number),
+                                   static_cast<Index>(refusal.entities[k + 1].number)}));
+    }
+    const std::string text = refusal.what();
+    const std::string cell = "cell \\d+ \\(patch (left|right|walls), t = [0-9.]+ to [0-9.]+\\)";
+    const std::regex crossing{cell + " and " + cell +
+                              " meet at t = ([-0-9.e]+) near \\(([-0-9.e]+(, )?)+\\)"};
+    auto found = std::sregex_iterator(text.begin(), text.end(), crossing);
+    REQUIRE(static_cast<std::size_t>(std::distance(found, {})) == refusal.entities.size() / 2);
+    for (; found != std::sregex_iterator{}; ++found) {
+        const double time = std::stod((*found)[3]);
+        CHECK((time >= 0 && time <= 1));
+    }
+}
+
 } // namespace
 
 TEMPLATE_TEST_CASE_SIG("200 random sound hulls are proven, as by pairs", "[embedding]", ((int D), D), 2, 3) {
@@ -211,4 +336,40 @@ TEST_CASE("cells in any order are proven as well, only less quickly", "[embeddin
     const HullEmbedding<3> found = examine(hull);
     CHECK(found.crossings.empty());
     CHECK(found.proven_stars > found.stars / 2);
+}
+
+TEMPLATE_TEST_CASE_SIG("a run refuses 20 random bodies that cross between levels, and writes nothing",
+                       "[embedding]", ((int D), D), 2, 3) {
+    TwoBodies<D> scene{37};
+    for (int planted = 0, tried = 0; planted < 20; ++tried) {
+        REQUIRE(tried < 60);
+        Case the_case = planted % 2 == 0 ? scene.changing_places() : scene.turning();
+        const Pairs expected = pairs_without_proof<D>(the_case);
+        const scratch::Folder folder;
+        the_case.directory = folder / "out";
+        if (expected.empty()) {
+            REQUIRE_NOTHROW(run_case(the_case, {}));
+            continue;
+        }
+        try {
+            run_case(the_case, {});
+            FAIL("a hull that crosses itself was written");
+        } catch (const GeometryError& refusal) {
+            check_refusal(refusal, expected);
+        }
+        CHECK(std::filesystem::is_empty(the_case.directory));
+        ++planted;
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("a run refuses none of 100 random slabs that are sound", "[embedding]", ((int D), D),
+                       2, 3) {
+    TwoBodies<D> scene{41};
+    for (int k = 0; k < 100; ++k) {
+        const scratch::Folder folder;
+        Case the_case = scene.apart();
+        the_case.directory = folder / "out";
+        REQUIRE_NOTHROW(run_case(the_case, {}));
+        REQUIRE(by_pairs(hull_of_file<D>(the_case.directory / "slab_0000.vtu")).empty());
+    }
 }

@@ -489,7 +489,7 @@ TEMPLATE_TEST_CASE_SIG("a section comes back from its file", "[slice]", ((int D)
     const auto& facets = section.surface.facets;
     CHECK(soup.simplices[D - 1].vertices ==
           Array<Index>(facets.front().data(), facets.front().data() + D * facets.size()));
-    const auto& patches = std::get<Array<std::int64_t>>(soup.find_cell_data("patch")->values);
+    const auto& patches = std::get<IntegerList>(soup.find_cell_data("patch")->values);
     CHECK(std::equal(patches.begin(), patches.end(), section.surface.patch.begin()));
     CHECK(std::get<Array<double>>(soup.find_field_data("time")->values) == Array<double>{1.3});
     CHECK(std::get<std::vector<std::string>>(soup.find_field_data("patch_name")->values) ==

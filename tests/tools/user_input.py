@@ -4,6 +4,7 @@
 mixed cells, airfoils in either order; and wishes that no machine meets."""
 import json
 import math
+import subprocess
 import unittest
 
 import harness
@@ -347,6 +348,17 @@ class Wishes(SurfaceTest):
 
     def test_layers_that_do_not_fit(self):
         self.wish("[time]\nlayers = 1000000\n[side]\nsplit = \"E\"\n", "1000000 layers", "simplices", "GB are free")
+
+    def test_layers_that_take_minutes_are_told_of_at_once(self):
+        case = self.body("a.stl", stl())
+        case.write_text(case.read_text().replace("layers = 1\n", "layers = 200000\n[check]\nembedding = false\n"))
+        build = subprocess.Popen([harness.PROGRAM, "build", case, "--out", self.dir / "out", "--quiet"], text=True,
+                                 stderr=subprocess.PIPE)
+        told = next(line for line in build.stderr if "200000 layers" in line)
+        build.terminate()
+        build.communicate(timeout=60)
+        self.assertRegex(told, r"simplices; that takes some [0-9.]+ GB and [0-9]+ minutes")
+        self.assertEqual([file.name for file in (self.dir / "out").iterdir()], [])
 
     def test_a_gap_that_the_mesher_cannot_resolve(self):
         for gap, refused in ((1e-9, True), (1e-6, False)):

@@ -55,12 +55,10 @@ MeshKind kind_of(const io::Soup& soup);
 template<int D>
 struct HullArrays {
     Array<Point<D + 1>> points;
-    Array<Simplex<D>> cells;
-    IdRuns region, patch, layer;         ///< of cells
-    Array<Neighbors<D>> neighbors;       ///< of cells, where all of them could be
-    Array<std::int64_t> other_neighbors; ///< as the file has them, where they could not
-    IdRuns vertex_id, track_id;          ///< of points
-    Array<std::int64_t> cell_of_vertex;
+    Array<Index> vertices;                           ///< of cells, D + 1 of each
+    IntegerList region, patch, layer;                ///< of cells
+    IntegerList neighbors;                           ///< of cells, D + 1 of each
+    IntegerList vertex_id, track_id, cell_of_vertex; ///< of points
     PatchList patches;
     std::optional<std::array<double, 2>> time;
 
@@ -68,8 +66,8 @@ struct HullArrays {
 };
 
 /// Takes the arrays of a hull out of what a file says; throws InputError for arrays of the wrong shape. The
-/// soup loses what is taken, array by array, so that little is held twice; it keeps its tags, groups and
-/// field data.
+/// soup loses its points, cells and their data, array by array, so that nothing is held twice; it keeps its
+/// tags, groups and field data.
 template<int D>
 HullArrays<D> hull_of_soup(io::Soup& soup);
 

@@ -36,8 +36,8 @@ struct HullEmbedding {
 /// in rational arithmetic. For D = 2 the pairs are decided as in find_crossings(). Pairs come from a tree of
 /// boxes in space-time. The caps' cells are left out when the caps are proven otherwise: see embedded_caps.h.
 /// Needs: cells that refer to points; finite coordinates; `adjacency` as build_adjacency() gives it.
-/// Cost: near-linear where cells are of like size to their neighbours. About 170 extra bytes per tested cell.
-/// The result does not depend on the number of threads.
+/// Cost: near-linear where cells are of like size to their neighbours. About 20 extra bytes per tested cell
+/// in prisms. The result does not depend on the number of threads.
 template<int D>
 HullEmbedding<D> examine_embedding(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
                                    const AdjacencyView<D>& adjacency, std::size_t limit = 100);

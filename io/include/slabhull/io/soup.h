@@ -3,11 +3,13 @@
 
 #include "slabhull/core/array.h"
 #include "slabhull/core/column.h"
+#include "slabhull/core/integer_list.h"
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,7 +20,12 @@ namespace slabhull::io {
 struct DataArray {
     std::string name;
     int components = 1;
-    std::variant<Array<double>, Array<std::int64_t>, std::vector<std::string>> values;
+    std::variant<Array<double>, IntegerList, std::vector<std::string>> values;
+
+    /// Keeps those rows, in the order given.
+    void keep_rows(std::span<const Index> kept);
+    /// Adds the rows of an array of the same type and components.
+    void append(const DataArray& more);
 };
 
 /// The simplices of one dimension in a file.

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "slabhull/core/column.h"
-#include "slabhull/core/id_runs.h"
+#include "slabhull/core/integer_list.h"
 #include "slabhull/core/point.h"
 #include "slabhull/topology/hull.h"
 
@@ -40,14 +40,6 @@ Column<std::int64_t> column_by_stretches(const Hull<D>& hull, const Value& value
 }
 
 // The hull must outlive these.
-
-/// Ids or tracks, those from `first` on.
-inline Column<std::int64_t> id_column(const IdRuns& values, std::size_t first = 0) {
-    return {values.size() - first, 1,
-            [&values, first](std::size_t begin, std::size_t end, std::int64_t* out) {
-                values.copy(first + begin, first + end, out);
-            }};
-}
 
 template<int D>
 Column<std::int64_t> region_column(const Hull<D>& hull) {

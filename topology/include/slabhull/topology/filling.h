@@ -2,7 +2,7 @@
 #pragma once
 
 #include "slabhull/core/array.h"
-#include "slabhull/core/id_runs.h"
+#include "slabhull/core/integer_list.h"
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
 #include "slabhull/topology/hull.h"
@@ -44,8 +44,8 @@ struct Filling {
     Array<FacetAttribute> facet_attribute;
     PatchList patches;
 
-    IdRuns vertex_ids; ///< -1 for vertices inside, which no other slab has
-    IdRuns track_ids;  ///< no_track for the centres of cells and of facets
+    IntegerList vertex_ids; ///< -1 for vertices inside, which no other slab has
+    IntegerList track_ids;  ///< no_track for the centres of cells and of facets
 
     std::size_t hull_points = 0;
     std::size_t steiner_points = 0; ///< centres, the last of the vertices

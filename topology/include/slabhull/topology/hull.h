@@ -2,7 +2,7 @@
 #pragma once
 
 #include "slabhull/core/array.h"
-#include "slabhull/core/id_runs.h"
+#include "slabhull/core/integer_list.h"
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
 
@@ -26,8 +26,8 @@ struct Hull {
     Array<Point<D + 1>> points;
     Array<Simplex<D>> cells;
     Array<Neighbors<D>> neighbors; ///< closed: every entry names a cell
-    IdRuns vertex_ids;
-    IdRuns track_ids;
+    IntegerList vertex_ids;
+    IntegerList track_ids;
 
     std::size_t initial_points = 0; ///< vertices of the initial cap come first,
     std::size_t side_points = 0;    ///< then those in neither cap, then the terminating cap's

@@ -91,10 +91,7 @@ public:
     auto vertices() const { return id_range<VertexId>(vertex_count()); }
     auto cells() const { return id_range<CellId>(cell_count()); }
     /// All half-facets, by cell.
-    auto half_facets() const {
-        return std::views::iota(std::uint64_t{0}, std::uint64_t{cell_count()} * corners) |
-               std::views::transform([](std::uint64_t number) { return HalfFacet{number}; });
-    }
+    auto half_facets() const { return IdRange<HalfFacet, std::uint64_t>{cell_count() * corners}; }
     /// The half-facets that have no mirror.
     auto boundary_facets() const {
         return half_facets() | std::views::filter([this](HalfFacet h) { return !across(h).valid(); });
