@@ -98,6 +98,18 @@ class Filling(ProgramTest):
             self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
             self.assertTrue((out / f"{name}.vtu").exists())
 
+    def test_an_earlier_run_leaves_nothing_beside_a_new_one(self):
+        case = CIRCLE.format("centre").replace("slabs = 2", "slabs = 3") + '[fill]\nformats = ["mfem", "vtu"]\n'
+        out, _ = self.build(self.case(case))
+        foreign = ("slab_0001.txt", "fill_0007.mfem", "notes.vtu")  # none that the run made
+        for name in foreign:
+            (out / name).write_text("mine")
+        fewer = case.replace("slabs = 3", "slabs = 1").split("[fill]")[0] + '[output]\nformats = ["msh"]\n'
+        self.build(self.case(fewer))
+        self.assertEqual(sorted(p.name for p in out.iterdir()),
+                         sorted(("cap_0001.vtu", "caps.pvd", "march.state", "report.json", "slab_0000.msh", "slabs.jsonl",
+                                 *foreign)))
+
     def test_fill_wants_caps_that_move_and_formats_that_there_are(self):
         still = CIRCLE.format("centre").replace('[cap]\nreuse = "move"\n', "")
         self.refused(self.case(still + "[fill]\n"), 2, "fill", "reuse")
