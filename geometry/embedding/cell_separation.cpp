@@ -2,6 +2,7 @@
 #include "geometry/embedding/cell_separation.h"
 
 #include "geometry/embedding/rounding.h"
+#include "slabhull/core/vector.h"
 
 #include <algorithm>
 #include <array>
@@ -200,15 +201,6 @@ private:
     std::array<std::array<Bounded, stored>, count> entry_;
     std::array<Step, N> steps_; ///< K - 1 of them
 };
-
-template<std::size_t W>
-double dot(const std::array<double, W>& a, const std::array<double, W>& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < W; ++k) {
-        sum += a[k] * b[k];
-    }
-    return sum;
-}
 
 /// Solves rows x = (1, .., 1) by elimination; what comes of singular rows is of no use, but does no harm.
 template<std::size_t W>

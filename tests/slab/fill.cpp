@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/fill.h"
 
+#include "slab/fill/mend_cells.h"
 #include "slab/swept_grid.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
@@ -307,7 +308,45 @@ TEMPLATE_TEST_CASE_SIG("a slab that turns too far in one layer is refused, namin
         REQUIRE(error.entities.size() >= 2);
         CHECK(error.entities[0].kind == "cell");
         CHECK(error.entities[1].kind == "layer");
+        CHECK_THAT(error.what(), Catch::Contains("vertices on the hull"));
     }
+}
+
+TEMPLATE_TEST_CASE_SIG("centres and inner vertices that turned cells inside out are moved back", "[fill]",
+                       ((int D), D), 2, 3) {
+    const Hull<D> hull = hull_over<D>(specimens::full_box<D>(3), {splits<D>().back()}, 2, true);
+    Filling<D> filling = fill_slab(hull);
+    Filling<D> places;
+    const SlabColumns<D> columns = slab_columns(hull, places);
+    SECTION("the apex of a cone") {
+        filling.points.back()[0] += 1.5;
+        filling.points.back()[D] += 0.1;
+    }
+    SECTION("the centre of a wall or cell, on the hull") {
+        filling.points[filling.points.size() - filling.steiner_points] = hull.points.front();
+    }
+    SECTION("a vertex on the level between the layers") {
+        filling.points[filling.hull_points][0] += 1.5;
+    }
+    const double level = filling.points[filling.hull_points][D];
+    REQUIRE_FALSE(not_positive(filling).empty());
+    mend_cells(columns, filling);
+    require_clean(filling, hull);
+    CHECK(filling.points[filling.hull_points][D] == level);
+}
+
+TEMPLATE_TEST_CASE_SIG("where no place helps, vertices of the hull stay and the cells are left", "[fill]",
+                       ((int D), D), 2, 3) {
+    Hull<D> hull = hull_over<D>(specimens::full_box<D>(3), {splits<D>().back()}, 1, true);
+    Filling<D> filling = fill_slab(hull);
+    Filling<D> places;
+    const SlabColumns<D> columns = slab_columns(hull, places);
+    filling.points.front()[0] += 2; // beyond the kernel of any star
+    const auto before = filling.points;
+    mend_cells(columns, filling);
+    CHECK_FALSE(not_positive(filling).empty());
+    CHECK(std::equal(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(filling.hull_points),
+                     filling.points.begin()));
 }
 
 TEMPLATE_TEST_CASE_SIG("a filling does not depend on the number of threads", "[fill]", ((int D), D), 2, 3) {

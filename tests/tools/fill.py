@@ -2,6 +2,7 @@
 """`slabhull fill`: every split filled and checked; VTK, Gmsh, meshio and GetFEM on what it writes; refusals."""
 import importlib.util
 import json
+import shutil
 import subprocess
 import sys
 import unittest
@@ -97,6 +98,27 @@ class Filling(ProgramTest):
             self.assertTrue(0 < smallest < one_per_cent < median < 1)
             self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
             self.assertTrue((out / f"{name}.vtu").exists())
+
+    def test_the_examples_with_large_turns_are_filled(self):
+        """With mended cells: the airfoil as it is shipped, the room with more layers, most of the falling brick."""
+        room = ("layers = 4", "layers = 16")
+        brick = ("slabs = 4\nlayers = 4", "slabs = 8\nlayers = 8\nend = 0.5")
+        moving = '\n[cap]\nreuse = "move"\nreuse_angle = 0.5\n[fill]\n'
+        for name, change, more, slabs, filled in (
+                ("airfoil", None, "", 2, {0, 1}), ("room", room, moving, 1, {0}), ("falling-body", brick, moving, 8, set(range(7)))):  # then it has turned too far
+            with self.subTest(name):
+                for file in (harness.ROOT / "examples").glob("*.*"):
+                    shutil.copy(file, self.dir)
+                text = (self.dir / f"{name}.toml").read_text()
+                if change:
+                    text = text.replace(*change).replace("\nend = 1.0\nslabs = 8", "\nslabs = 8")
+                out, report = self.build(self.case(text + more, f"{name}.toml"), out=f"out_{name}")
+                self.assertEqual(len(report["slabs"]), slabs)
+                self.assertEqual({slab["slab"] for slab in report["slabs"] if "fill" in slab}, filled)
+                for slab in report["slabs"]:
+                    if "fill" in slab:
+                        self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
+                        self.assertGreater(slab["fill"]["smallest_volume"], 0)
 
     def test_an_earlier_run_leaves_nothing_beside_a_new_one(self):
         case = CIRCLE.format("centre").replace("slabs = 2", "slabs = 3") + '[fill]\nformats = ["mfem", "vtu"]\n'
