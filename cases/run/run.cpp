@@ -307,14 +307,15 @@ private:
         if (!case_.fill) {
             return std::nullopt;
         }
-        if (!slab.cap_moved) {
+        const bool march = case_.fill->method == FillMethod::march;
+        if (march && !slab.cap_moved) {
             listener_.warning(fmt::format("slab {} is not filled: its terminating cap was meshed anew, since "
                                           "moving it left angles below cap.reuse_angle",
                                           slab.hull.slab));
             return std::nullopt;
         }
         const double before = clock.total();
-        Filled filled{fill_slab(slab.hull, clock), {}};
+        Filled filled{march ? fill_slab(slab.hull, clock) : fill_by_tetgen(slab.hull, clock), {}};
         const FillingReport checked = check_filling<D>(columns_of(filled.mesh), &slab.hull);
         clock.book("checking the filling");
         if (!checked.clean()) {
@@ -324,6 +325,14 @@ private:
         filled.report = as_json(checked, filled.mesh, filling_quality(filled.mesh, slab.hull.layers),
                                 clock.total() - before);
         return filled;
+    }
+
+    Filling<D> fill_by_tetgen(const Hull<D>& hull, StageClock& clock) const {
+        if constexpr (D == 2) {
+            return fill_unstructured(hull, clock, case_.fill->unstructured);
+        } else {
+            throw UsageError{"only hulls in 2D+t are filled by TetGen"};
+        }
     }
 
     void begin_writing(const Slab<D>& slab, const std::optional<Filled>& filled, SlabFiles& files) {

@@ -2,6 +2,7 @@
 #include "slabhull/slab/fill.h"
 
 #include "slab/fill/cone_cells.h"
+#include "slab/fill/describe_hull.h"
 #include "slab/fill/inner_places.h"
 #include "slab/fill/mend_cells.h"
 #include "slab/fill/side_walls.h"
@@ -136,22 +137,7 @@ private:
 /// What is known of the hull's cells and vertices, and of those inside.
 template<int D>
 void describe(const Hull<D>& hull, const SlabColumns<D>& columns, Filling<D>& filling) {
-    filling.facets = hull.cells;
-    filling.facet_attribute.resize(hull.cells.size());
-    for (std::size_t c = 0; c < hull.cells.size();) {
-        const std::size_t end = hull.prism_end(c);
-        const FacetAttribute attribute = attribute_of(hull, c);
-        for (; c < end; ++c) {
-            filling.facet_attribute[c] = attribute;
-        }
-    }
-    filling.patches = hull.patches;
-    filling.vertex_ids = hull.vertex_ids;
-    filling.track_ids = hull.track_ids;
-    filling.hull_points = hull.points.size();
-    filling.slab = hull.slab;
-    filling.time = hull.time;
-    filling.vertex_ids.append_run(-1, filling.points.size() - hull.points.size(), 0);
+    describe_hull(hull, filling);
     for (std::size_t level = 1; level < columns.layers(); ++level) {
         for (Index k = 0; k < columns.count; ++k) {
             if (columns.on_boundary[k] == 0) {

@@ -5,6 +5,7 @@
 #include "slab/swept_grid.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/check_filling.h"
 
 #include <catch2/catch.hpp>
@@ -347,6 +348,29 @@ TEMPLATE_TEST_CASE_SIG("where no place helps, vertices of the hull stay and the 
     CHECK_FALSE(not_positive(filling).empty());
     CHECK(std::equal(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(filling.hull_points),
                      filling.points.begin()));
+}
+
+TEST_CASE("TetGen fills a hull in 2D + t whatever its caps and its split", "[fill]") {
+    if (!has_mesher(SolidMesher::tetgen)) {
+        WARN("a build without TetGen");
+        return;
+    }
+    for (const Split split : splits<2>()) {
+        const Hull<2> hull = hull_over<2>(specimens::box_with_body<2>(), {split}, 3, true);
+        for (const double scale : {0.0, 2.0, 3.3}) {
+            INFO(split_name(split) << " with time scale " << scale);
+            StageClock clock;
+            const Filling<2> filling = fill_unstructured(hull, clock, {scale});
+            require_clean(filling, hull);
+            CHECK(filling.facets == hull.cells);
+            CHECK(filling.track_ids.size() == filling.points.size());
+            CHECK(filling.vertex_ids.size() == filling.points.size());
+        }
+    }
+    StageClock clock;
+    const Hull<2> hull = hull_over<2>(specimens::full_box<2>(2), {Split::centre}, 1, false);
+    CHECK_THROWS_AS(fill_unstructured(hull, clock, {-1.0}), UsageError);
+    CHECK_THROWS_AS(fill_unstructured(hull, clock, {std::nan("")}), UsageError);
 }
 
 TEMPLATE_TEST_CASE_SIG("a filling does not depend on the number of threads", "[fill]", ((int D), D), 2, 3) {

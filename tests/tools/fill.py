@@ -120,6 +120,26 @@ class Filling(ProgramTest):
                         self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
                         self.assertGreater(slab["fill"]["smallest_volume"], 0)
 
+    def test_tetgen_fills_hulls_whatever_their_caps(self):
+        still = CIRCLE.format("centre").replace('[cap]\nreuse = "move"\n', "")
+        out, report = self.build(self.case(still + '[fill]\nmethod = "tetgen"\nformats = ["vtu", "mfem"]\n'))
+        for slab in report["slabs"]:
+            name = f"{slab['slab']:04}"
+            found = self.checked(out / f"fill_{name}.mfem", out / f"slab_{name}.vtu")
+            self.assertEqual(found["counts"]["cells"], slab["fill"]["cells"])
+            self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
+            few = self.fill(out / f"slab_{name}.vtu", self.dir / "few.mfem", "--method", "tetgen", "--time-scale", 0.5)
+            self.checked(self.dir / "few.mfem", out / f"slab_{name}.vtu")
+            self.assertNotEqual(few["counts"]["cells"], slab["fill"]["cells"])
+        self.refused(self.case(still + '[fill]\nmethod = "tetgen"\ntime_scale = 0\n'), 2, "time_scale")
+        self.refused(self.case(ELLIPSOID.format("A") + '[fill]\nmethod = "tetgen"\n'), 2, "2D+t")
+        for options in (("--time-scale", 2), ("--method", "tetgen", "--time-scale", -1)):
+            self.assertEqual(slabhull("fill", out / "slab_0000.vtu", self.dir / "f.vtu", *options).code, 2)
+        solid, _ = self.build(self.case(ELLIPSOID.format("A").replace("slabs = 2", "slabs = 1")), out="solid")
+        result = slabhull("fill", solid / "slab_0000.vtu", self.dir / "f.mfem", "--method", "tetgen")
+        self.assertEqual(result.code, 2)
+        self.assertIn("2D+t", result.err)
+
     def test_an_earlier_run_leaves_nothing_beside_a_new_one(self):
         case = CIRCLE.format("centre").replace("slabs = 2", "slabs = 3") + '[fill]\nformats = ["mfem", "vtu"]\n'
         out, _ = self.build(self.case(case))
