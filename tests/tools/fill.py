@@ -122,7 +122,7 @@ class Filling(ProgramTest):
 
     def test_tetgen_fills_hulls_whatever_their_caps(self):
         still = CIRCLE.format("centre").replace('[cap]\nreuse = "move"\n', "")
-        out, report = self.build(self.case(still + '[fill]\nmethod = "tetgen"\nformats = ["vtu", "mfem"]\n'))
+        out, report = self.build(self.case(still + '[fill]\nmethod = "tetgen"\nformats = ["vtu", "mfem"]\n'), out="filled")
         for slab in report["slabs"]:
             name = f"{slab['slab']:04}"
             found = self.checked(out / f"fill_{name}.mfem", out / f"slab_{name}.vtu")
@@ -139,6 +139,28 @@ class Filling(ProgramTest):
         result = slabhull("fill", solid / "slab_0000.vtu", self.dir / "f.mfem", "--method", "tetgen")
         self.assertEqual(result.code, 2)
         self.assertIn("2D+t", result.err)
+
+    def test_fillings_are_converted_and_told_of(self):
+        for case, names in ((ELLIPSOID.format("C"), ("a.mfem", "b.h5", "c.mfem")),
+                            (CIRCLE.format("centre"), ("a.h5", "b.msh", "c.getfem", "d.vtu"))):
+            out, _ = self.build(self.case(case), out=f"out_{len(names)}")
+            hull = out / "slab_0000.vtu"
+            told = self.fill(hull, self.dir / names[0])
+            for before, after in zip(names, names[1:]):
+                if before.endswith(".getfem"):
+                    before = names[0]
+                result = slabhull("convert", self.dir / before, self.dir / after)
+                self.assertEqual(result.code, 0, result.err)
+                if not after.endswith(".getfem"):
+                    found = self.checked(self.dir / after, hull)
+                    self.assertEqual(found["counts"], told["counts"])
+            seen = json.loads(slabhull("info", self.dir / names[0], "--json").out)
+            self.assertEqual((seen["kind"], seen["counts"]), ("filling", told["counts"]))
+            self.assertEqual(seen["facets_by_attribute"], told["facets_by_attribute"])
+            self.assertIn("filling of a slab", slabhull("info", self.dir / names[0]).out)
+            self.assertEqual(slabhull("convert", self.dir / names[0], self.dir / "x.mfem", "--reverse").code, 2)
+            self.assertEqual(slabhull("convert", self.dir / names[0], self.dir / "x.stl").code, 2)
+        self.assertEqual((self.dir / "a.mfem").read_bytes(), (self.dir / "c.mfem").read_bytes())
 
     def test_an_earlier_run_leaves_nothing_beside_a_new_one(self):
         case = CIRCLE.format("centre").replace("slabs = 2", "slabs = 3") + '[fill]\nformats = ["mfem", "vtu"]\n'
