@@ -21,6 +21,9 @@ if(SLABHULL_SANITIZE)
     target_compile_options(slabhull_flags INTERFACE -fsanitize=${sanitizers} -fno-sanitize-recover=all
         -fno-omit-frame-pointer)
     target_link_options(slabhull_flags INTERFACE -fsanitize=${sanitizers})
+    if(NOT SLABHULL_SANITIZE STREQUAL "thread" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_link_options(slabhull_flags INTERFACE $<$<LINK_LANGUAGE:CXX>:-static-libasan>) # for core/sanitizer_fork.cpp
+    endif()
 endif()
 if(SLABHULL_FUZZ)
     if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")

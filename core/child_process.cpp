@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/core/child_process.h"
 
+#include "core/sanitizer_fork.h"
+
 #include "slabhull/core/error.h"
 #include "slabhull/core/progress.h"
 
@@ -112,20 +114,20 @@ void reset_signals() {
 
 void die_with(pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) { // it was gone before the line above
+    if (getppid() != parent) { // it ended before the request was made
         _exit(job_threw);
     }
 }
 
 [[noreturn]] void live_as_child(pid_t parent, Descriptor& in, Descriptor& out,
                                 const std::function<void(const Send&)>& job) {
-    in.close_now(); // so that the parent's end is the end of listening
+    in.close_now(); // else the pipe stays open after the parent's end
     // Away from the standard streams, in case the host had closed one.
     const Descriptor far{fcntl(out.number(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1)};
     out.close_now();
     reset_signals();
     die_with(parent);
-    const detail::WatchScope unwatched{nullptr}; // the parent is asked
+    const detail::WatchScope unwatched{nullptr}; // the parent asks whether to go on
     try {
         job([&far](const void* bytes, std::size_t size) {
             if (!transfer(write, far.number(), static_cast<const char*>(bytes), size)) {
@@ -181,6 +183,7 @@ ChildEnd run_in_child(const std::function<void(const Send&)>& job,
     constexpr int roomy = 1 << 20; // fewer switches between the two; no harm when refused
     fcntl(out.number(), F_SETPIPE_SZ, roomy);
 
+    prepare_sanitizer_for_fork();
     const pid_t parent = getpid();
     const pid_t id = fork();
     if (id < 0) {

@@ -35,7 +35,7 @@ std::optional<std::size_t> number_in(const fs::path& file) {
     return in >> number ? std::optional{number} : std::nullopt; // "max" where there is no limit
 }
 
-/// Files' pages that would be given up: they count as used.
+/// Page cache that the kernel would give up, although the group counts it as used.
 std::size_t reclaimable(const fs::path& group, const std::string& name) {
     std::ifstream in{group / "memory.stat"};
     for (std::string word; in >> word;) {
@@ -46,14 +46,14 @@ std::size_t reclaimable(const fs::path& group, const std::string& name) {
     return 0;
 }
 
-/// The names that one of the two versions of control groups has for the same things.
+/// File names in a control group; they differ between versions 1 and 2.
 struct GroupFiles {
     const char* limit;
     const char* used;
     const char* reclaimable;
 };
 
-/// In a group, and in those that it is part of.
+/// The least that is left in a group and its ancestors.
 std::size_t free_in_groups(const fs::path& top, fs::path group, const GroupFiles& files) {
     std::size_t free = untold;
     for (;; group = group.parent_path()) {

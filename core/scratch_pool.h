@@ -12,7 +12,7 @@ namespace slabhull {
 template<class T>
 class ScratchPool {
 public:
-    /// One that is idle, else what make() returns.
+    /// An idle object, else a new one from make().
     template<class Make>
     std::unique_ptr<T> take(const Make& make) {
         {

@@ -67,7 +67,7 @@ Order cells_of_region(io::Soup& soup, std::size_t top, int region) {
     const PatchNumber initial = patch_number(soup.groups[top], "initial");
     const PatchNumber terminating = patch_number(soup.groups[top], "terminating");
     if (initial == 0 || terminating == 0) {
-        throw UsageError{fmt::format("--region: {} is no hull whose cells tell their region", soup.path)};
+        throw UsageError{fmt::format("--region: {} is not a hull with regions", soup.path)};
     }
     return region == 1 ? side_by_groups(soup, top, initial, terminating)
                        : in_group(soup, top, region == 0 ? initial : terminating);
@@ -133,7 +133,7 @@ void require_distinct_vertices(const io::Soup& soup, const Array<Simplex<D>>& ce
 template<int D>
 struct Boundary {
     Array<Facet<D>> facets;
-    Order cells; ///< the one that has it
+    Order cells; ///< the cell of each facet
 };
 
 template<int D>
@@ -160,7 +160,7 @@ Boundary<D> boundary_of(const io::Soup& soup) {
     return boundary;
 }
 
-/// The groups of the facets: those that the soup itself gives to the same facets, or their cells'.
+/// The group of each facet: that of the same facet in the soup, else that of its cell.
 template<int D>
 std::vector<PatchNumber> groups_of_facets(const io::Soup& soup, const Boundary<D>& boundary) {
     const io::SimplexBlock& given = soup.simplices[D - 1];

@@ -25,7 +25,7 @@ DataArray* find_array(std::vector<DataArray>& arrays, const std::string& name) {
     return found == arrays.end() ? nullptr : &*found;
 }
 
-/// The whole numbers of an array with one of them to a row; nullptr if it is not there or is not such.
+/// The integers of an array with one component; nullptr when there is no such array.
 Numbers* numbers(std::vector<DataArray>& arrays, const std::string& name) {
     DataArray* array = find_array(arrays, name);
     return array == nullptr || array->components != 1 ? nullptr : std::get_if<Numbers>(&array->values);
@@ -45,7 +45,7 @@ PatchList& top_groups(io::Soup& soup) {
 
 // --- numbers
 
-/// Reals that are whole numbers become such; other arrays stay.
+/// Makes an array of reals one of integers when all of them are whole numbers.
 void make_whole(DataArray* array) {
     const auto* reals = array == nullptr ? nullptr : std::get_if<Array<double>>(&array->values);
     constexpr double widest = 9007199254740992.0; // 2^53

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edit/soup_rows.h"
 
+#include "core/used_vertices.h"
 #include "edit/soup_cells.h"
 
 #include <algorithm>
@@ -102,20 +103,11 @@ void keep_points(io::Soup& soup, const Order& order) {
 }
 
 void drop_unused_points(io::Soup& soup) {
-    std::vector<bool> used(soup.points.size());
-    for (const io::SimplexBlock& block : soup.simplices) {
-        for (const Index v : block.vertices) {
-            used[v] = true;
-        }
-    }
-    Order order;
-    for (std::size_t v = 0; v < used.size(); ++v) {
-        if (used[v]) {
-            order.push_back(static_cast<Index>(v));
-        }
-    }
-    if (order.size() < used.size()) {
-        keep_points(soup, order);
+    const auto& blocks = soup.simplices;
+    const UsedVertices used{soup.points.size(), blocks[0].vertices, blocks[1].vertices, blocks[2].vertices,
+                            blocks[3].vertices};
+    if (used.vertices.size() < soup.points.size()) {
+        keep_points(soup, used.vertices);
     }
 }
 

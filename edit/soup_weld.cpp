@@ -4,11 +4,14 @@
 
 #include "edit/soup_cells.h"
 #include "edit/soup_rows.h"
+#include "slabhull/core/vector.h"
 #include "slabhull/topology/adjacency.h"
+#include "topology/complex/repeated_vertex.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 
 namespace slabhull {
@@ -30,15 +33,15 @@ struct PlaceHash {
     }
 };
 
-/// The points that stay, found by where they are: in boxes of twice the tolerance, so that a point's
-/// surroundings reach into two boxes along each axis at most.
+/// The points kept so far, hashed by boxes of twice the tolerance: so the points within the tolerance of a
+/// point lie in at most two boxes along each axis.
 class PointGrid {
 public:
     PointGrid(const io::Soup& soup, double tolerance)
         : points_{soup.points}, times_{has_time_as_coordinate(soup) ? nullptr : soup_times(soup)},
           tolerance_{tolerance} {}
 
-    /// An earlier one that is near, or v itself, which stays then.
+    /// A kept point within the tolerance of v; v itself, kept from now on, when there is none.
     Index keep(Index v) {
         const Place at = place(v);
         for (unsigned corner = 0; corner < (tolerance_ > 0 ? 16U : 1U); ++corner) {
@@ -59,11 +62,7 @@ private:
         return {x[0] + 0.0, x[1] + 0.0, x[2] + 0.0, times_ == nullptr ? 0.0 : (*times_)[v] + 0.0};
     }
     bool near(const Place& a, const Place& b) const {
-        double square = 0;
-        for (std::size_t k = 0; k < a.size(); ++k) {
-            square += (a[k] - b[k]) * (a[k] - b[k]);
-        }
-        return square <= tolerance_ * tolerance_;
+        return squared_distance(a, b) <= tolerance_ * tolerance_;
     }
     Place box_of(Place at) const {
         for (double& x : at) {
@@ -86,19 +85,10 @@ private:
     std::unordered_multimap<Place, Index, PlaceHash> boxes_;
 };
 
-bool repeats_a_vertex(const Index* simplex, std::size_t corners) {
-    for (std::size_t i = 0; i < corners; ++i) {
-        if (std::find(simplex, simplex + i, simplex[i]) != simplex + i) {
-            return true;
-        }
-    }
-    return false;
-}
-
 Order sound_cells(const io::SimplexBlock& block, std::size_t corners) {
     Order order;
     for (std::size_t c = 0; c < block.vertices.size() / corners; ++c) {
-        if (!repeats_a_vertex(&block.vertices[c * corners], corners)) {
+        if (!repeats_a_vertex(std::span{&block.vertices[c * corners], corners})) {
             order.push_back(static_cast<Index>(c));
         }
     }

@@ -254,7 +254,7 @@ std::vector<StudySeries> rivals_of(const std::vector<StudySeries>& all, const st
     return rivals.size() > 1 ? rivals : std::vector<StudySeries>{};
 }
 
-/// Of each, the row at the finest level that all have.
+/// The row of each series at the finest level that all have.
 std::vector<StudyRow> same_level(const std::vector<StudySeries>& rivals) {
     int level = rivals.front().back().level;
     for (const StudySeries& series : rivals) {
@@ -268,7 +268,7 @@ std::vector<StudyRow> same_level(const std::vector<StudySeries>& rivals) {
     return rows;
 }
 
-/// Plots against the level say nothing for one level.
+/// The plot where there are several levels to plot over.
 std::string where_several(const StudySeries& series, const Plot& plot) {
     return series.size() > 1 ? html_of(plot) : "";
 }
@@ -290,7 +290,7 @@ std::string section_of(const StudySeries& series) {
            where_several(series, plot_of_memory(series)) + html_of(quality_table(series)) + "</section>\n";
 }
 
-/// Of each experiment the first split only.
+/// Only the first split of each experiment.
 std::vector<StudySeries> one_each(const std::vector<StudySeries>& all) {
     std::vector<StudySeries> firsts;
     for (const StudySeries& series : all) {

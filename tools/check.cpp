@@ -25,11 +25,11 @@ struct CheckCommand {
     std::string file;
     std::string from;
     bool json = false;
-    bool betti = false; ///< neither this nor the next: as far as it is practical
+    bool betti = false; ///< without this and the next: for hulls up to practical_betti_cells
     bool no_betti = false;
-    bool embedding = false; ///< even of torn hulls
+    bool embedding = false; ///< also where facets are at fault
     bool no_embedding = false;
-    std::string hull; ///< of the filling
+    std::string hull; ///< that the filling is compared with
     int threads = 0;
 };
 
@@ -154,7 +154,7 @@ Hull<D> read_hull(const CheckCommand& command) {
     io::Soup soup = read_named(command.hull, "");
     const MeshKind kind = kind_of(soup);
     if (kind.dimension != D || !kind.hull) {
-        throw UsageError{fmt::format("--hull: {} is no hull in {}D+t", command.hull, D)};
+        throw UsageError{fmt::format("--hull: {} is not a hull in {}D+t", command.hull, D)};
     }
     const HullArrays<D> arrays = hull_of_soup<D>(soup);
     return hull_of_columns<D>(arrays.columns());
@@ -169,7 +169,7 @@ int check_filling_file(const CheckCommand& command, const FillingArrays<D>& fill
     return tell(command, check_filling<D>(filling.columns(), hull ? &*hull : nullptr));
 }
 
-/// A file that is a filling, or must be one since a hull is given to compare with; nothing for others.
+/// Checks a filling: a space-time file, or any file when --hull is given; nothing for other files.
 std::optional<int> check_as_filling(const CheckCommand& command) {
     if (io::is_space_time_file(command.file)) {
         io::SpaceTimeSoup soup = io::read_space_time(command.file);

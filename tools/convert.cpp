@@ -132,7 +132,7 @@ class Output {
 public:
     Output(const ConvertCommand& command, const io::Format& format) : command_{command}, format_{format} {}
 
-    /// Brings what the soup says into the format's own terms.
+    /// Brings arrays and groups of the soup to the form that the format stores.
     void write(const std::filesystem::path& path, io::Soup soup) {
         require_dimension(command_, format_, soup);
         settle_groups(format_, soup);
@@ -150,7 +150,7 @@ public:
                              mesh.cells.rows(), simplices_called(mesh.dimension));
     }
 
-    /// Each once, however many parts lose it.
+    /// Each loss once, however many parts have it.
     void add_losses(const std::vector<std::string>& lost) {
         for (const std::string& each : lost) {
             if (std::find(lost_.begin(), lost_.end(), each) == lost_.end()) {

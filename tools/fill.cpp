@@ -30,9 +30,11 @@ struct FillCommand {
     int threads = 0;
 };
 
-/// Throws InputError for what is no sound hull.
+/// The hull in a soup, whose arrays it takes. Throws InputError when it is not sound.
 template<int D>
-Hull<D> sound_hull(const FillCommand& command, const HullColumns<D>& columns) {
+Hull<D> sound_hull(const FillCommand& command, io::Soup& soup) {
+    const HullArrays<D> arrays = hull_of_soup<D>(soup);
+    const HullColumns<D> columns = arrays.columns();
     const HullReport report = check_hull<D>(columns);
     if (!report.clean()) {
         throw InputError{fmt::format("{}: `slabhull check` finds {} defects, so it cannot be filled; the "
@@ -41,12 +43,6 @@ Hull<D> sound_hull(const FillCommand& command, const HullColumns<D>& columns) {
                          report.findings.front().entities};
     }
     return hull_of_columns<D>(columns);
-}
-
-template<int D>
-Hull<D> read_hull(const FillCommand& command, io::Soup& soup) {
-    const HullArrays<D> arrays = hull_of_soup<D>(soup);
-    return sound_hull<D>(command, arrays.columns());
 }
 
 template<int D>
@@ -88,7 +84,7 @@ template<int D>
 int fill_file(const FillCommand& command, io::Soup& soup) {
     const std::string format = filling_format(command.out, command.to, D);
     StageClock clock;
-    const Hull<D> hull = read_hull<D>(command, soup);
+    const Hull<D> hull = sound_hull<D>(command, soup);
     clock.book("reading and checking the hull");
     const Filling<D> filling = fill_hull(command, hull, clock);
     const FillingReport report = check_filling<D>(columns_of(filling), &hull);

@@ -139,7 +139,7 @@ struct Written {
     SectionReport report;
 };
 
-/// One run over the files. Nothing gets its final name before all times are cut.
+/// One pass over the files. No file gets its final name before all times are cut.
 class SliceRun {
 public:
     explicit SliceRun(const SliceCommand& command)

@@ -5,6 +5,7 @@
 // takes the initial one's cells: the rest of the slab is its stitching and its check, without any meshing.
 // Seconds are of the processor, on all threads.
 #include "slabhull/core/error.h"
+#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/geometry/shapes.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/stitch.h"

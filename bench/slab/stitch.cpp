@@ -2,6 +2,7 @@
 // Stitching, caps given: ids, points, cells and adjacency of the hull. Each hull is compared with the
 // adjacency of its soup before it is timed.
 #include "slabhull/slab/stitch.h"
+#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/topology/adjacency.h"
 
 #include <benchmark/benchmark.h>

@@ -5,6 +5,7 @@
 
 #include "slabhull/core/error.h"
 #include "slabhull/io/checksum.h"
+#include "slabhull/slab/layers.h"
 
 #include "cases/case/key_table.h"
 #include "cases/case/motion_keys.h"
@@ -309,7 +310,7 @@ private:
             case_.cap_reuse =
                 table.choice<CapReuse>("reuse", {{"none", CapReuse::none}, {"move", CapReuse::move}});
         }
-        // Two thirds and less of what the meshers give at worst: 7 degrees for D = 3, and 20.
+        // Below the smallest angles that the meshers give: 7 degrees for D = 3, 20 for D = 2.
         case_.cap_reuse_angle = table.number_or("reuse_angle", case_.dimension == 3 ? 5 : 10);
         if (!(case_.cap_reuse_angle >= 0 && case_.cap_reuse_angle <= 60)) {
             table.fail("reuse_angle", "an angle from 0 to 60 degrees");
@@ -396,7 +397,7 @@ private:
         return formats;
     }
 
-    /// Every format, as it is to be written, must have pieces.
+    /// Refuses output.pieces where a format cannot be written in pieces.
     void read_pieces(KeyTable& table) {
         const auto pieces = static_cast<std::size_t>(table.integer("pieces", 1, most_pieces));
         for (const std::string& format : case_.formats) {

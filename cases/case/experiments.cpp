@@ -73,7 +73,7 @@ constexpr std::array tandem_levels{
     ExperimentLevel{3.834, {35245617, 7478525}},  ExperimentLevel{5.326, {94464074, 20066876}},
     ExperimentLevel{7.601, {278561736, 59127488}}};
 
-/// Of the plane ones, whose hulls have twice as many triangles as vertices whatever the spacings are.
+/// The plane experiments: their hulls have twice as many triangles as vertices, whatever the spacings.
 constexpr Spacings plane{0.1475, 0.4, 0.3, 0.25};
 
 constexpr std::array<Experiment, 6> experiments{{

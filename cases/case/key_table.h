@@ -10,8 +10,8 @@
 
 namespace slabhull {
 
-/// A table of a TOML file that remembers which keys were asked for, so that the others can be called unknown,
-/// and that turns every mismatch into a UsageError naming the file, the line, the key and what was expected.
+/// A table of a TOML file. It remembers which keys were asked for, to report the others as unknown,
+/// and turns every mismatch into a UsageError naming the file, the line, the key and what was expected.
 class KeyTable {
 public:
     /// Throws InputError when the file cannot be read, UsageError when it is not TOML.

@@ -96,7 +96,7 @@ void read_displacement_series(KeyTable& table, const PatchKeysContext& context, 
     }
 }
 
-void read_stretch(KeyTable&, const PatchKeysContext&, MotionSpec&) {} // its neighbours say all
+void read_stretch(KeyTable&, const PatchKeysContext&, MotionSpec&) {} // no keys: it follows its neighbours
 
 void read_sequence(KeyTable& table, const PatchKeysContext& context, MotionSpec& motion) {
     for (KeyTable& step : table.optional_tables("steps")) {
@@ -112,7 +112,7 @@ void read_sequence(KeyTable& table, const PatchKeysContext& context, MotionSpec&
     }
 }
 
-/// A kind of motion, and what reads its keys.
+/// A kind of motion and the function that reads its keys.
 struct MotionKind {
     Kind kind;
     void (*read_keys)(KeyTable& table, const PatchKeysContext& context, MotionSpec& motion);

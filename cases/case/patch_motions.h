@@ -9,7 +9,7 @@ namespace slabhull {
 
 /// The motion that a case specifies, from the case's start; reads the tables that it names.
 /// Needs: spec.is_field().
-/// Throws UsageError for what makes no motion, InputError for a table that is not fit.
+/// Throws UsageError for keys that make no motion, InputError for an unsuitable table.
 template<int D>
 MotionPointer<D> motion_of(const MotionSpec& spec, const Case& the_case);
 

@@ -9,7 +9,7 @@
 
 namespace slabhull {
 
-/// Hulls call their caps so; a file tells patches and caps apart by their names.
+/// Names of a hull's caps, so not of patches: a file tells patches and caps apart by their names.
 inline bool is_patch_name(std::string_view name) {
     return !name.empty() && name != "initial" && name != "terminating";
 }

@@ -195,7 +195,7 @@ private:
             shown < names.size() ? " ..." : "", patch));
     }
 
-    /// Motions are given by patch: what has one name moves as one.
+    /// Motions are given by patch, so bodies of one name move together.
     void warn_of_shared_names(const std::vector<Surface<D>>& pieces) const {
         for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
             for (const Patch& patch : pieces[i].patches) {

@@ -39,7 +39,7 @@ public:
     }
     void raw(std::string_view text) { bytes_.append(text); }
 
-    /// Everything, and the checksum of it.
+    /// Everything, followed by its checksum.
     std::string sealed() && {
         io::Checksum sum;
         sum.add(bytes_.data(), bytes_.size());
@@ -51,8 +51,8 @@ private:
     std::string bytes_;
 };
 
-/// Reads what a Packer packed. A checksum that is right says nothing of who wrote the file, so every count is
-/// still held against what is left.
+/// Reads what a Packer packed. A right checksum does not prove who wrote the file, so every count is still
+/// compared with the bytes that are left.
 class Unpacker {
 public:
     explicit Unpacker(const std::filesystem::path& path) : path_{path} {

@@ -27,9 +27,9 @@ Domain<D> mesh_bodies(const InitialBodies& bodies, const CapOptions& options, co
     Surface<D> surface = boundary_of_bodies<D>(bodies, listener);
     clock.book("initial boundary");
     require_domain_boundary(surface, {"initial boundary", {}}, true);
-    clock.book("boundary check");
+    clock.book(boundary_check_stage);
     CapMesh<D> cap = mesh_cap<D>(surface, options);
-    clock.book("cap meshing");
+    clock.book(cap_meshing_stage);
     return make_domain<D>(std::move(cap), std::move(surface), ids);
 }
 

@@ -8,8 +8,8 @@
 
 namespace slabhull {
 
-/// A file of lines that only grows: what a march reports of each slab, so that it need not be kept in memory
-/// and outlives the process. A checkpoint says how many of its bytes count.
+/// A file of lines that only grows: the reports of the slabs, which so need no memory and outlive the
+/// process. A checkpoint says how many of its bytes count.
 class Journal {
 public:
     /// Keeps the first `size` bytes of the file, none of a new one. Throws InputError when there are fewer,

@@ -3,7 +3,7 @@
 
 #include "cases/case/patch_names.h"
 #include "cases/run/file_facets.h"
-#include "cases/run/used_points.h"
+#include "core/used_vertices.h"
 
 #include "slabhull/core/error.h"
 
@@ -15,9 +15,31 @@ namespace slabhull {
 
 namespace {
 
+template<int D>
+Array<Point<D>> points_in_space(const io::Soup& soup, const Array<Index>& vertices) {
+    Array<Point<D>> points;
+    points.reserve(vertices.size());
+    for (const Index v : vertices) {
+        points.push_back(point_in_space<D>(soup, v));
+    }
+    return points;
+}
+
+/// The K-simplices of a block, with new numbers of their vertices.
+template<int K>
+Array<Simplex<K>> renumbered(const io::SimplexBlock& block, const Array<Index>& number) {
+    Array<Simplex<K>> simplices(block.size(K));
+    for (std::size_t i = 0; i < simplices.size(); ++i) {
+        for (std::size_t k = 0; k <= K; ++k) {
+            simplices[i][k] = number[block.vertices[i * (K + 1) + k]];
+        }
+    }
+    return simplices;
+}
+
 /// The facets of a soup whose points all belong to cells, with their groups as patches.
 template<int D>
-void take_facets(const io::Soup& soup, const std::vector<Index>& number, DomainInput<D>& input) {
+void take_facets(const io::Soup& soup, const Array<Index>& number, DomainInput<D>& input) {
     const io::SimplexBlock& block = soup.simplices[D - 1];
     const Array<Facet<D>> facets = renumbered<D - 1>(block, number);
     for (std::size_t f = 0; f < facets.size(); ++f) {
@@ -31,7 +53,7 @@ void take_facets(const io::Soup& soup, const std::vector<Index>& number, DomainI
     input.facets_of_more = true; // a file may have more cells than the domain
 }
 
-/// What a file says of facets and the domain cannot hold.
+/// Warns of groups of facets that the domain cannot hold.
 template<int D>
 void warn_of_facets(const io::Soup& soup, const io::SimplexBlock& cells, const FileFacets<D>& facets,
                     const Domain<D>& domain, const DomainOptions& options, const Listener& listener) {
@@ -69,9 +91,9 @@ Surface<D> surface_of_soup(const io::Soup& soup, const Patch& patch) {
     if (block.vertices.empty()) {
         throw InputError(fmt::format("{}: has no {}", soup.path, D == 3 ? "triangles" : "edges"));
     }
-    UsedPoints<D> used{soup, block.vertices};
+    const UsedVertices used{soup.points.size(), block.vertices};
     Surface<D> surface;
-    surface.points = std::move(used.points);
+    surface.points = points_in_space<D>(soup, used.vertices);
     surface.facets = renumbered<D - 1>(block, used.number);
     surface.patch.assign(surface.facets.size(), patch.number);
     surface.patches = {patch};
@@ -84,10 +106,10 @@ Domain<D> domain_of_soup(const io::Soup& soup, const DomainOptions& options, con
     const io::SimplexBlock chosen =
         options.regions.empty() ? io::SimplexBlock{} : cells_of_regions<D>(soup, options.regions);
     const io::SimplexBlock& block = options.regions.empty() ? soup.simplices[D] : chosen;
-    UsedPoints<D> used{soup, block.vertices};
+    const UsedVertices used{soup.points.size(), block.vertices};
     DomainInput<D> input;
     input.where = soup.path;
-    input.points = std::move(used.points);
+    input.points = points_in_space<D>(soup, used.vertices);
     input.cells = renumbered<D>(block, used.number);
     input.cell_group = block.entity;
     for (std::size_t c = 0; c < input.cells.size(); ++c) {

@@ -65,7 +65,7 @@ private:
 
     bool disagrees(Index f, std::size_t i) const { return !disagrees_.empty() && disagrees_[f][i]; }
 
-    /// The facets that hang together with `start`, and whether each is to be turned to agree with it.
+    /// The component of `start`, and whether each facet is to be turned to agree with it.
     std::vector<Index> component_of(Index start) {
         std::vector<Index> component(1, start);
         reached_[start] = true;

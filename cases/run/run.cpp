@@ -43,18 +43,18 @@ Json seconds_as_json(const StageClock& clock) {
     return seconds;
 }
 
-/// Each stage in parts of the time that the cap was meshed, and all of them; empty where no cap was.
+/// The time of each stage, and of all but cap meshing, over that of cap meshing; empty without it.
 Json shares_as_json(const StageClock& clock) {
     double meshing = 0;
     double all = 0;
     for (const auto& [stage, passed] : clock.stages()) {
-        meshing += stage == "cap meshing" ? passed : 0;
+        meshing += stage == cap_meshing_stage ? passed : 0;
         all += passed;
     }
     Json shares = Json::object();
     if (meshing > 0) {
         for (const auto& [stage, passed] : clock.stages()) {
-            if (stage != "cap meshing") {
+            if (stage != cap_meshing_stage) {
                 shares[stage] = passed / meshing;
             }
         }
@@ -152,7 +152,7 @@ public:
                 const ProgressScope to_the_end{{}};
                 try {
                     write_overview();
-                } catch (const OutputError&) { // what stopped the run says more
+                } catch (const OutputError&) { // the error that stopped the run is the one to report
                 }
             }
             throw;
@@ -240,19 +240,18 @@ private:
         journal_->append(initial_.dump());
     }
 
-    /// Given layers may ask for more than was meant: told before minutes go by.
+    /// Given layers may make more simplices than was meant: warn before minutes go by.
     void warn_of_size(std::size_t layers) const {
         constexpr double many = 1e8;
         const auto facets = march_->state().boundary.facets().size();
-        const double simplices = static_cast<double>(facets) * static_cast<double>(layers) *
-                                 static_cast<double>(simplices_per_prism(case_.split));
+        const double simplices = side_simplex_count(facets, layers, case_.split);
         if (!case_.layers_follow_motion() && simplices > many) {
             listener_.warning(fmt::format("slab {}: {} facets in {} layers make a side of {:.2g} simplices",
                                           march_->state().slab, facets, layers, simplices));
         }
     }
 
-    /// The slab as planned or, if the case wants it, as much of it as is not tangled.
+    /// The slab as planned; with time.adapt, cut short before its boundary tangles.
     Slab<D> build(StageClock& clock) {
         const double begin = march_->state().time;
         const double floor = case_.adapt_floor * (case_.end - case_.start) / case_.slabs;
@@ -278,7 +277,7 @@ private:
         }
     }
 
-    /// Once: reports have the figures of every slab.
+    /// Warns once only: the reports have the figures of every slab.
     void warn_of_layers(const Slab<D>& slab) {
         if (slab.layers.sound() || !march_->settings().layers.suggest) {
             return;
@@ -302,7 +301,7 @@ private:
         Json report;
     };
 
-    /// Nothing where the case wants no filling, or the slab has none since its cap was meshed anew.
+    /// The filling; none when the case wants none, or when the cap was meshed anew.
     std::optional<Filled> fill(const Slab<D>& slab, StageClock& clock) const {
         if (!case_.fill) {
             return std::nullopt;

@@ -2,7 +2,7 @@
 #include "cases/tables/displacement_files.h"
 
 #include "cases/tables/displacement_table.h"
-#include "cases/tables/point_finder.h"
+#include "geometry/basics/point_finder.h"
 
 #include "slabhull/core/error.h"
 
@@ -124,7 +124,7 @@ private:
         return rows;
     }
 
-    /// Tracks of another run would go unnoticed otherwise.
+    /// Else tracks of another run would go unnoticed.
     void require_in_place(std::size_t vertex, std::size_t row) {
         if (table_.points.empty()) {
             return;

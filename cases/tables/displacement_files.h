@@ -19,7 +19,7 @@ struct DisplacementFiles {
     DisplacementMatch match;
 };
 
-/// The motion of a patch that files of displacements say, a file for each time. Every vertex of the patch
+/// The motion of a patch by displacement files, one for each time. Every vertex of the patch
 /// needs a row in every file: that of its track where the file has tracks, else the one at its place at the
 /// start. Rows with both must also be at the vertex's place, at the start or displaced. Other rows are passed
 /// over. `tracks` are those of the vertices of `start`.

@@ -73,7 +73,7 @@ private:
         for (std::size_t row = 0; row < csv_.rows(); ++row) {
             const double value = csv_.at(row, column);
             if (std::floor(value) != value || std::abs(value) > largest) {
-                csv_.fail(row, fmt::format("{} {} is no whole number", csv_.columns[column], value));
+                csv_.fail(row, fmt::format("{} {} is not a whole number", csv_.columns[column], value));
             }
             table_.tracks.push_back(static_cast<TrackId>(value));
         }
@@ -138,7 +138,7 @@ private:
             for (std::size_t k = 0; k < components; ++k) {
                 if (!std::isfinite(of_row[k])) {
                     throw InputError(
-                        fmt::format("{}: point {}: {} is no finite number", soup_.path, row, array_));
+                        fmt::format("{}: point {}: {} is not a finite number", soup_.path, row, array_));
                 }
             }
             std::copy_n(of_row, D, table_.displacements.emplace_back().begin());

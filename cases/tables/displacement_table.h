@@ -12,7 +12,7 @@
 
 namespace slabhull {
 
-/// What a file says of displaced vertices at one time. Rows have tracks, positions at the start, or both.
+/// Displacements of vertices at one time. Rows have tracks, positions at the start, or both.
 template<int D>
 struct DisplacementTable {
     std::string path;

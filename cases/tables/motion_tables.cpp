@@ -69,7 +69,7 @@ public:
         return rows;
     }
 
-    /// For columns that have no meaning in the plane.
+    /// Refuses values in a column that has no meaning in the plane.
     void require_zero(const std::string& name, const std::vector<double>& values) const {
         for (std::size_t row = 0; row < values.size(); ++row) {
             if (values[row] != 0) {
@@ -80,7 +80,7 @@ public:
         }
     }
 
-    /// And more than the times.
+    /// Refuses columns that nothing asked for, and a table of times alone.
     void require_all_known() const {
         for (const std::string& name : table_.columns) {
             if (!known_.contains(name)) {
@@ -102,7 +102,7 @@ public:
         }
     }
 
-    /// Gives what the factories of motions say about a row its place in the file.
+    /// Adds file and line to what a factory of motions says about a row.
     template<class Make>
     auto made_by(const Make& make) const {
         try {

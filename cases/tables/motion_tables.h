@@ -14,8 +14,8 @@ struct TimeInterval {
 };
 
 // Motions given by a file of rows (io::read_motion_table). Columns: `time`; of an angle A either `A`, in
-// radians, or `A_deg`. Both throw InputError naming file, line and column for a table that is not fit, that
-// has columns of no meaning, or that does not cover the time span.
+// radians, or `A_deg`. Both throw InputError naming file, line and column for a table that is unsuitable, has
+// unknown columns, or does not cover the time span.
 
 /// Columns time and angle.
 template<int D>

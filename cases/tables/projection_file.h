@@ -14,7 +14,4 @@ namespace slabhull {
 template<int D>
 ProjectionSurfacePointer<D> surface_from_file(const std::filesystem::path& path);
 
-extern template ProjectionSurfacePointer<2> surface_from_file<2>(const std::filesystem::path&);
-extern template ProjectionSurfacePointer<3> surface_from_file<3>(const std::filesystem::path&);
-
 } // namespace slabhull

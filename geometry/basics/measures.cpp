@@ -198,7 +198,7 @@ AngleRange detail::CosineRange::angles() const {
 template<int D>
 Point<D + 1> MeasureSums<D>::add(const std::array<Point<D + 1>, D + 1>& corners, const Point<D + 1>& origin) {
     const Point<D + 1> normal = simplex_normal<D>(corners);
-    measure_.add(std::sqrt(dot(normal, normal)));
+    measure_.add(norm(normal));
     enclosed_.add(dot(minus(corners[0], origin), normal)); // x.N is the same all over the simplex
     for (std::size_t k = 0; k <= D; ++k) {
         closure_[k].add(normal[k]);

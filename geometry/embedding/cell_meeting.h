@@ -15,6 +15,4 @@ namespace slabhull {
 template<int N>
 std::optional<Point<N>> common_point(const FacetPair<N>& pair);
 
-extern template std::optional<Point<4>> common_point<4>(const FacetPair<4>&);
-
 } // namespace slabhull

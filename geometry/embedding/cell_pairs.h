@@ -59,8 +59,6 @@ private:
     Point<D + 1> scale_;
 };
 
-extern template Point<3> scale_of_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
-extern template Point<4> scale_of_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 extern template class CellPairs<2>;
 extern template class CellPairs<3>;
 

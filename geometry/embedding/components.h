@@ -52,7 +52,4 @@ int winding_number(const Surface<D>& surface, const BoxTree<D>& tree, const Poin
     return winding;
 }
 
-extern template std::vector<double> enclosed_by_components<2>(const Boundary<2>&, const Surface<2>&);
-extern template std::vector<double> enclosed_by_components<3>(const Boundary<3>&, const Surface<3>&);
-
 } // namespace slabhull

@@ -32,11 +32,4 @@ template<int D>
 bool caps_are_embedded(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
                        const AdjacencyView<D>& adjacency, std::span<const CapOf> caps);
 
-extern template std::vector<CapOf> find_caps<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
-extern template std::vector<CapOf> find_caps<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
-extern template bool caps_are_embedded<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
-                                          const AdjacencyView<2>&, std::span<const CapOf>);
-extern template bool caps_are_embedded<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
-                                          const AdjacencyView<3>&, std::span<const CapOf>);
-
 } // namespace slabhull

@@ -154,11 +154,6 @@ Point<N> along(const Point<N>& a, const Point<N>& direction, double s) {
 }
 
 template<std::size_t N>
-double squared_distance(const Point<N>& a, const Point<N>& b) {
-    return dot(minus(a, b), minus(a, b));
-}
-
-template<std::size_t N>
 Point<N> nearest_on_segment(const Point<N>& a, const Point<N>& b, const Point<N>& x) {
     const Point<N> u = minus(b, a);
     return along(a, u, std::clamp(dot(minus(x, a), u) / dot(u, u), 0.0, 1.0));

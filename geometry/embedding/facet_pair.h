@@ -48,11 +48,4 @@ bool meet_elsewhere(const FacetPair<3>& pair);
 template<int D>
 Point<D> meeting_place(const FacetPair<D>& pair);
 
-extern template Array<Box<2>> facet_boxes<2>(const Surface<2>&);
-extern template Array<Box<3>> facet_boxes<3>(const Surface<3>&);
-extern template FacetPair<2> pair_of_facets<2>(const Surface<2>&, Index, Index);
-extern template FacetPair<3> pair_of_facets<3>(const Surface<3>&, Index, Index);
-extern template Point<2> meeting_place<2>(const FacetPair<2>&);
-extern template Point<3> meeting_place<3>(const FacetPair<3>&);
-
 } // namespace slabhull

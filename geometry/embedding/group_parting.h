@@ -32,7 +32,5 @@ bool proven_parted(const VertexCloud<N>& a, const VertexCloud<N>& b);
 
 extern template struct VertexCloud<3>;
 extern template struct VertexCloud<4>;
-extern template bool proven_parted<3>(const VertexCloud<3>&, const VertexCloud<3>&);
-extern template bool proven_parted<4>(const VertexCloud<4>&, const VertexCloud<4>&);
 
 } // namespace slabhull

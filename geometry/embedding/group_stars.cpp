@@ -260,7 +260,7 @@ private:
             return false;
         }
         for (int step = 0; step < most_steps; ++step) {
-            const double length = std::sqrt(dot(direction, direction));
+            const double length = norm(direction);
             const Point<D + 1>* worst = nullptr;
             double least = 0.02 * length; // not only just
             for (const Point<D + 1>& normal : unit_normals_) {
@@ -285,7 +285,7 @@ private:
         for (std::size_t k = 0; k < groups_.size(); ++k) {
             for (std::size_t c = first_[k]; c < first_[k] + cells_[k]; ++c) {
                 Point<D + 1> normal = s_.scaled_normal(c);
-                const double length = std::sqrt(dot(normal, normal));
+                const double length = norm(normal);
                 for (double& x : normal) {
                     x /= length;
                 }
@@ -339,7 +339,7 @@ std::array<float, D + 1> GroupStars<D>::group_normal(std::size_t group) const {
             sum[k] += normal[k];
         }
     }
-    const double length = std::sqrt(dot(sum, sum));
+    const double length = norm(sum);
     std::array<float, D + 1> unit;
     for (std::size_t k = 0; k <= D; ++k) {
         unit[k] = static_cast<float>(sum[k] / length);

@@ -73,7 +73,5 @@ std::vector<Index> star_centres(const CellGroups<D>& groups, std::size_t vertex_
 
 extern template class GroupStars<2>;
 extern template class GroupStars<3>;
-extern template std::vector<Index> star_centres<2>(const CellGroups<2>&, std::size_t);
-extern template std::vector<Index> star_centres<3>(const CellGroups<3>&, std::size_t);
 
 } // namespace slabhull

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/meshing/cap_limits.h"
 
-#include "core/hash.h"
+#include "geometry/basics/point_finder.h"
+#include "geometry/embedding/box_tree.h"
 #include "geometry/embedding/facet_names.h"
 
 #include "slabhull/core/error.h"
 #include "slabhull/core/memory.h"
+#include "slabhull/core/vector.h"
 #include "slabhull/geometry/measures.h"
 
 #include <fmt/format.h>
@@ -29,99 +31,12 @@ constexpr double bytes_per_cell = 100;
 /// TetGen's tolerance, by the diagonal of the box around all points.
 constexpr double tetgen_tolerance = 1e-8;
 
-// --- points that are too near to each other
-
-/// Points in cubes much larger than the distance looked for, so that few of them are near a cube's side.
-class NearPoints {
-public:
-    NearPoints(std::span<const Point<3>> points, double distance)
-        : points_{points}, origin_{points[0]}, distance_{distance}, edge_{64 * distance} {
-        for (Index v = 0; v < points.size(); ++v) {
-            filed_.emplace_back(hash(cube_of(points[v])), v);
-        }
-        std::sort(filed_.begin(), filed_.end());
-    }
-
-    /// The nearest one of a larger number that is within the distance.
-    std::optional<Index> partner(Index v) const {
-        std::optional<Index> nearest;
-        double least = distance_;
-        const auto look = [&](const Cube& cube) {
-            const std::uint64_t key = hash(cube);
-            auto at = std::lower_bound(filed_.begin(), filed_.end(), std::pair{key, v + 1});
-            for (; at != filed_.end() && at->first == key; ++at) {
-                const double apart = distance(points_[v], points_[at->second]);
-                if (apart < least) {
-                    least = apart;
-                    nearest = at->second;
-                }
-            }
-        };
-        visit_cubes_around(points_[v], look);
-        return nearest;
-    }
-
-    static double distance(const Point<3>& a, const Point<3>& b) {
-        return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-    }
-
-private:
-    using Cube = std::array<std::int64_t, 3>;
-
-    Cube cube_of(const Point<3>& p) const {
-        Cube cube{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            cube[k] = static_cast<std::int64_t>(std::floor((p[k] - origin_[k]) / edge_));
-        }
-        return cube;
-    }
-
-    static std::uint64_t hash(const Cube& cube) {
-        std::uint64_t value = 0;
-        for (const std::int64_t each : cube) {
-            value = combined_hash(value, static_cast<std::uint64_t>(each));
-        }
-        return value;
-    }
-
-    /// Calls look(cube) for the cubes that a ball of the distance around p touches.
-    template<class Look>
-    void visit_cubes_around(const Point<3>& p, const Look& look) const {
-        Point<3> corner = p;
-        for (double& x : corner) {
-            x -= distance_;
-        }
-        const Cube low = cube_of(corner);
-        for (std::size_t k = 0; k < 3; ++k) {
-            corner[k] = p[k] + distance_;
-        }
-        const Cube high = cube_of(corner);
-        for (std::int64_t x = low[0]; x <= high[0]; ++x) {
-            for (std::int64_t y = low[1]; y <= high[1]; ++y) {
-                for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-                    look({x, y, z});
-                }
-            }
-        }
-    }
-
-    std::span<const Point<3>> points_;
-    Point<3> origin_; ///< near them
-    double distance_;
-    double edge_;
-    std::vector<std::pair<std::uint64_t, Index>> filed_; ///< by cube
-};
-
 double diagonal_of(std::span<const Point<3>> points) {
-    Point<3> low = points[0];
-    Point<3> high = points[0];
+    Box<3> box;
     for (const Point<3>& p : points) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
+        box.include(p);
     }
-    return NearPoints::distance(low, high);
+    return distance(box.low, box.high);
 }
 
 /// A facet that has the point.
@@ -144,8 +59,7 @@ Index facet_at(const Surface<3>& surface, Index v) {
             "diagonal) for one. Join them, or leave a wider gap",
             one_patch ? fmt::format("two points of the patch \"{}\"", names.patch(at_a))
                       : fmt::format("the patches \"{}\" and \"{}\"", names.patch(at_a), names.patch(at_b)),
-            NearPoints::distance(surface.points[a], surface.points[b]), place_in_words(surface.points[a]),
-            tolerance),
+            distance(surface.points[a], surface.points[b]), place_in_words(surface.points[a]), tolerance),
         {names.entity(at_a), names.entity(at_b)}};
 }
 
@@ -156,10 +70,12 @@ void require_resolvable(const Surface<3>& surface) {
     if (!(tolerance > std::numeric_limits<double>::min())) {
         return;
     }
-    const NearPoints near{surface.points, tolerance};
+    const PointFinder<3> finder{surface.points};
     for (Index v = 0; v < surface.points.size(); ++v) {
-        if (const auto partner = near.partner(v)) {
-            refuse_pair(surface, v, *partner, tolerance);
+        for (const std::size_t other : finder.within(surface.points[v], tolerance)) {
+            if (other > v) {
+                refuse_pair(surface, v, static_cast<Index>(other), tolerance);
+            }
         }
     }
 }

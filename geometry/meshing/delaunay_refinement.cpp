@@ -6,6 +6,7 @@
 #include "geometry/meshing/vertex_star.h"
 
 #include "slabhull/core/progress.h"
+#include "slabhull/core/vector.h"
 #include "slabhull/geometry/measures.h"
 
 #include <algorithm>
@@ -218,8 +219,7 @@ private:
         for (const DelaunayCavity::Edge& edge : cavity_.rim()) {
             const Point<2>& a = mesh_.points[edge.from];
             const Point<2>& b = mesh_.points[edge.to];
-            if (plane::square_distance(a, p) < distance * distance ||
-                (edge.boundary() && encroaches(p, a, b))) {
+            if (squared_distance(a, p) < distance * distance || (edge.boundary() && encroaches(p, a, b))) {
                 return false;
             }
         }
@@ -230,13 +230,13 @@ private:
     /// Whether p is too near to a boundary edge: inside its diametral circle, in a triangle that is flat or
     /// skinny.
     bool encroaches(const Point<2>& p, const Point<2>& a, const Point<2>& b) const {
-        const Point<2> to_a = plane::minus(a, p);
-        const Point<2> to_b = plane::minus(b, p);
-        const double cosine = plane::dot(to_a, to_b);
+        const Point<2> to_a = minus(a, p);
+        const Point<2> to_b = minus(b, p);
+        const double cosine = dot(to_a, to_b);
         if (cosine >= 0) {
             return false;
         }
-        const bool flat = cosine * cosine > lens * plane::dot(to_a, to_a) * plane::dot(to_b, to_b);
+        const bool flat = cosine * cosine > lens * dot(to_a, to_a) * dot(to_b, to_b);
         return flat || Shape{{a, b, p}}.sine() < least_sine_;
     }
 
@@ -341,7 +341,7 @@ private:
         double after = 1;
         for (const DelaunayCavity::Edge& edge : cavity_.rim()) {
             const Point<2>& a = mesh_.points[edge.from];
-            if (plane::square_distance(a, p) < distance * distance) {
+            if (squared_distance(a, p) < distance * distance) {
                 return 0;
             }
             after = std::min(after, Shape{{a, mesh_.points[edge.to], p}}.sine());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/meshing/domain_blocks.h"
 
+#include "core/pieces.h"
+#include "core/used_vertices.h"
 #include "geometry/embedding/facet_pair.h"
 #include "geometry/meshing/block_interface.h"
 #include "geometry/meshing/plane_frame.h"
@@ -107,17 +109,10 @@ private:
 
 std::vector<CutPlane> BlockCutter::planes_near(double share, double imbalance) const {
     const std::vector<Point<3>> normals = directions();
-    std::vector<std::vector<CutPlane>> found(normals.size());
-    parallel_for(normals.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            found[k] = planes_across(normals[k], share, imbalance);
-        }
-    });
-    std::vector<CutPlane> planes;
-    for (const std::vector<CutPlane>& some : found) {
-        planes.insert(planes.end(), some.begin(), some.end());
-    }
-    return planes;
+    return parallel_gather<CutPlane>(normals.size(), 1,
+                                     [&](std::size_t k, std::size_t, std::vector<CutPlane>& planes) {
+                                         planes = planes_across(normals[k], share, imbalance);
+                                     });
 }
 
 std::vector<CutPlane> BlockCutter::planes_across(const Point<3>& normal, double share,
@@ -275,24 +270,14 @@ DomainBlocks cut_domain(const Boundary<3>& boundary, const Surface<3>& surface, 
 }
 
 BlockSurface surface_of_block(const Array<Point<3>>& points, const Array<Facet<3>>& facets) {
-    Array<Index> fresh;
-    fresh.assign(points.size(), no_index);
-    for (const Facet<3>& facet : facets) {
-        for (const Index v : facet) {
-            fresh[v] = 0;
-        }
-    }
     BlockSurface block;
-    for (Index v = 0; v < points.size(); ++v) {
-        if (fresh[v] == 0) {
-            fresh[v] = static_cast<Index>(block.vertex.size());
-            block.vertex.push_back(v);
-            block.surface.points.push_back(points[v]);
-        }
+    UsedVertices used{points.size(), facets};
+    block.surface.facets = facets;
+    used.renumber(block.surface.facets);
+    for (const Index v : used.vertices) {
+        block.surface.points.push_back(points[v]);
     }
-    for (const Facet<3>& facet : facets) {
-        block.surface.facets.push_back({fresh[facet[0]], fresh[facet[1]], fresh[facet[2]]});
-    }
+    block.vertex = std::move(used.vertices);
     block.surface.patch.assign(facets.size(), 0);
     return block;
 }

@@ -29,7 +29,7 @@ DomainBlocks cut_domain(const Boundary<3>& boundary, const Surface<3>& surface, 
 /// A block by itself, and which of the points each of its is, ascending.
 struct BlockSurface {
     Surface<3> surface;
-    std::vector<Index> vertex;
+    Array<Index> vertex;
 };
 BlockSurface surface_of_block(const Array<Point<3>>& points, const Array<Facet<3>>& facets);
 

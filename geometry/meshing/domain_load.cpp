@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/meshing/domain_load.h"
 
+#include "core/pieces.h"
 #include "geometry/embedding/components.h"
-
-#include "slabhull/core/parallel.h"
 
 #include <array>
 #include <cstddef>
@@ -56,17 +55,10 @@ public:
             }
             cubes = std::move(finer);
         }
-        std::vector<std::vector<LoadSample>> found(cubes.size());
-        parallel_for(cubes.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c) {
-                sample(cubes[c], false, 3, found[c]);
-            }
-        });
-        std::vector<LoadSample> all;
-        for (const std::vector<LoadSample>& part : found) {
-            all.insert(all.end(), part.begin(), part.end());
-        }
-        return all;
+        return parallel_gather<LoadSample>(cubes.size(), 1,
+                                           [&](std::size_t c, std::size_t, std::vector<LoadSample>& found) {
+                                               sample(cubes[c], false, 3, found);
+                                           });
     }
 
 private:

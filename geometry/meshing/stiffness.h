@@ -41,9 +41,4 @@ template<int D>
 Stiffness assemble_stiffness(std::span<const Point<D>> points, std::span<const Simplex<D>> cells,
                              std::span<const std::uint8_t> fixed);
 
-extern template Stiffness assemble_stiffness<2>(std::span<const Point<2>>, std::span<const Simplex<2>>,
-                                                std::span<const std::uint8_t>);
-extern template Stiffness assemble_stiffness<3>(std::span<const Point<3>>, std::span<const Simplex<3>>,
-                                                std::span<const std::uint8_t>);
-
 } // namespace slabhull::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "slabhull/core/point.h"
+#include "slabhull/core/vector.h"
 
 #include <algorithm>
 #include <array>
@@ -13,17 +13,8 @@ namespace slabhull::plane {
 
 using Corners = std::array<Point<2>, 3>;
 
-inline Point<2> minus(const Point<2>& a, const Point<2>& b) {
-    return {a[0] - b[0], a[1] - b[1]};
-}
-inline double dot(const Point<2>& a, const Point<2>& b) {
-    return a[0] * b[0] + a[1] * b[1];
-}
 inline double cross(const Point<2>& a, const Point<2>& b) {
     return a[0] * b[1] - a[1] * b[0];
-}
-inline double square_distance(const Point<2>& a, const Point<2>& b) {
-    return dot(minus(a, b), minus(a, b));
 }
 
 /// The local numbers after and before i, counter-clockwise.
@@ -44,7 +35,7 @@ struct Shape {
     explicit Shape(const Corners& p) : double_area{cross(minus(p[1], p[0]), minus(p[2], p[0]))} {
         std::array<double, 3> opposite;
         for (std::size_t i = 0; i < 3; ++i) {
-            opposite[i] = square_distance(p[next(i)], p[previous(i)]);
+            opposite[i] = squared_distance(p[next(i)], p[previous(i)]);
             apex = opposite[i] < opposite[apex] ? i : apex;
         }
         shortest = opposite[apex];
@@ -60,7 +51,7 @@ struct Shape {
 class Bisector {
 public:
     Bisector(const Point<2>& a, const Point<2>& b)
-        : middle_{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}, half_{std::sqrt(square_distance(a, b)) / 2},
+        : middle_{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}, half_{std::sqrt(squared_distance(a, b)) / 2},
           inward_{(a[1] - b[1]) / (2 * half_), (b[0] - a[0]) / (2 * half_)} {}
 
     double half_length() const { return half_; }

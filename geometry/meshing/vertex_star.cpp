@@ -4,6 +4,7 @@
 #include "geometry/basics/predicates.h"
 #include "geometry/meshing/in_circle.h"
 
+#include "slabhull/core/vector.h"
 #include "slabhull/geometry/measures.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ double VertexStar::least_sine(const Point<2>& p) const {
 double VertexStar::clearance(const Point<2>& p) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const std::array<Index, 2>& edge : link_) {
-        nearest = std::min(nearest, plane::square_distance(mesh_.points[edge[0]], p));
+        nearest = std::min(nearest, squared_distance(mesh_.points[edge[0]], p));
     }
     return std::sqrt(nearest);
 }

@@ -3,6 +3,9 @@
 
 #include "io/files/file_cursor.h"
 
+#include <fmt/format.h>
+#include <string>
+
 namespace slabhull::io {
 
 /// Passes blanks, line ends and comments from '#' to the end of the line.
@@ -12,6 +15,13 @@ inline void skip_comments(FileCursor& in) {
         in.line();
         in.skip_blanks();
     }
+}
+
+/// Reads a keyword with the comments about it; another word is an error.
+inline void expect_keyword(FileCursor& in, const std::string& keyword) {
+    skip_comments(in);
+    in.require(in.word() == keyword, fmt::format("\"{}\" was expected", keyword));
+    skip_comments(in);
 }
 
 } // namespace slabhull::io

@@ -35,20 +35,14 @@ public:
     }
 
 private:
-    void expect(const std::string& keyword) {
-        skip_comments(in_);
-        in_.require(in_.word() == keyword, fmt::format("\"{}\" was expected", keyword));
-        skip_comments(in_);
-    }
-
     void read_dimension() {
-        expect("dimension");
+        expect_keyword(in_, "dimension");
         dimension_ = in_.parsed<int>("a dimension");
         in_.require(dimension_ >= 1 && dimension_ <= 3, "dimension 1, 2 or 3 was expected");
     }
 
     void read_elements(const std::string& section, int dimension) {
-        expect(section);
+        expect_keyword(in_, section);
         SimplexBlock& block = soup_.simplices[static_cast<std::size_t>(dimension)];
         const auto corners = static_cast<std::size_t>(dimension) + 1;
         const auto claimed = in_.parsed<std::uint64_t>("a count");
@@ -75,7 +69,7 @@ private:
     }
 
     void read_vertices() {
-        expect("vertices");
+        expect_keyword(in_, "vertices");
         const auto claimed = in_.parsed<std::uint64_t>("a count");
         skip_comments(in_);
         in_.require(!in_.rest().starts_with("nodes"), "curved meshes (\"nodes\") are not read");

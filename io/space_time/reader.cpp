@@ -37,7 +37,7 @@ public:
         const std::string_view head = in_.line();
         in_.require(head.substr(0, head.find_last_not_of(" \t\r") + 1) == "MFEM mesh v1.0",
                     "\"MFEM mesh v1.0\" was expected");
-        expect("dimension");
+        expect_keyword(in_, "dimension");
         soup_.dimension = in_.parsed<int>("a dimension");
         in_.require(soup_.dimension == 3 || soup_.dimension == 4,
                     "dimension 3 or 4 of space-time was expected");
@@ -49,19 +49,13 @@ public:
     }
 
 private:
-    void expect(const std::string& keyword) {
-        skip_comments(in_);
-        in_.require(in_.word() == keyword, fmt::format("\"{}\" was expected", keyword));
-        skip_comments(in_);
-    }
-
     static bool right_type(int type, int dimension) {
         return dimension == 4 ? type >= 6 && type <= 8 : type == mfem_simplex_type(dimension);
     }
 
     void read_elements(const std::string& section, int dimension, Array<Index>& vertices,
                        Array<std::int64_t>& attribute) {
-        expect(section);
+        expect_keyword(in_, section);
         const auto corners = static_cast<std::size_t>(dimension) + 1;
         const auto claimed = in_.parsed<std::uint64_t>("a count");
         const std::size_t count = in_.plausible(claimed, 2 * (corners + 2) - 1, section.c_str());
@@ -80,7 +74,7 @@ private:
     }
 
     void read_vertices() {
-        expect("vertices");
+        expect_keyword(in_, "vertices");
         const auto claimed = in_.parsed<std::uint64_t>("a count");
         skip_comments(in_);
         const auto width = in_.parsed<int>("the number of coordinates");

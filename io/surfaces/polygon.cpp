@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/surfaces/polygon.h"
 
+#include "slabhull/core/vector.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,25 +15,11 @@ using Place = std::array<double, 2>;
 constexpr std::size_t longest = 10'000;
 constexpr double no_ear = -1;
 
-double dot(const Point<3>& a, const Point<3>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Point<3> minus(const Point<3>& a, const Point<3>& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 /// Twice the polygon's area, along its normal (Newell).
 Point<3> area_vector(std::span<const Point<3>> corners) {
     Point<3> sum{};
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-        const Point<3> a = minus(corners[i], corners[0]);
-        const Point<3> b = minus(corners[i + 1], corners[0]);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t l = (k + 1) % 3;
-            const std::size_t m = (k + 2) % 3;
-            sum[k] += a[l] * b[m] - a[m] * b[l];
-        }
+        sum = plus(sum, cross(minus(corners[i], corners[0]), minus(corners[i + 1], corners[0])));
     }
     return sum;
 }
@@ -62,7 +50,7 @@ bool is_planar(std::span<const Point<3>> corners, const Point<3>& normal, const 
         most = std::max(most, height);
     }
     const double tolerance = std::min(1e-6 * size.coordinate, 1e-3 * size.extent);
-    return most - least <= 2 * tolerance * std::sqrt(dot(normal, normal));
+    return most - least <= 2 * tolerance * norm(normal);
 }
 
 /// Seen against the normal, in the coordinate plane that it is nearest to: counterclockwise.
@@ -228,7 +216,7 @@ PolygonFault cut_polygon(std::span<const Point<3>> corners, std::vector<PolygonT
     }
     const Size size = size_of(corners);
     const Point<3> normal = area_vector(corners);
-    if (!(std::sqrt(dot(normal, normal)) > 1e-12 * size.extent * size.extent)) {
+    if (!(norm(normal) > 1e-12 * size.extent * size.extent)) {
         return PolygonFault::no_area;
     }
     if (!is_planar(corners, normal, size)) {

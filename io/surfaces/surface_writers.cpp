@@ -5,6 +5,7 @@
 #include "io/files/text_stream.h"
 #include "io/mesh/column_stream.h"
 #include "slabhull/core/error.h"
+#include "slabhull/core/vector.h"
 
 #include <array>
 #include <bit>
@@ -50,17 +51,7 @@ using Corners = std::array<Point<3>, 3>;
 
 /// By the right-hand rule, of length 1; zero where the corners are in line.
 Point<3> unit_normal(const Corners& corners) {
-    std::array<Point<3>, 2> edges{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        edges[0][i] = corners[1][i] - corners[0][i];
-        edges[1][i] = corners[2][i] - corners[0][i];
-    }
-    Point<3> normal{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3;
-        const std::size_t k = (i + 2) % 3;
-        normal[i] = edges[0][j] * edges[1][k] - edges[0][k] * edges[1][j];
-    }
+    Point<3> normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     const double length = std::hypot(normal[0], normal[1], normal[2]);
     for (double& x : normal) {
         x = length > 0 ? x / length : 0;

@@ -4,6 +4,7 @@
 #include "slab/check/check_shape.h"
 #include "slab/check/hull_view.h"
 #include "slabhull/core/memory.h"
+#include "slabhull/core/vector.h"
 #include "slabhull/slab/hull_columns.h"
 #include "slabhull/topology/homology.h"
 
@@ -134,11 +135,7 @@ private:
                 closure[k] += regions[r].closure[k];
             }
         }
-        double square = 0;
-        for (const double x : closure) {
-            square += x * x;
-        }
-        report_.closure = std::sqrt(square);
+        report_.closure = norm(closure);
         judge_measures();
     }
 

@@ -4,6 +4,7 @@
 #include "core/pieces.h"
 
 #include "slab/check/check_shape.h"
+#include "slabhull/core/vector.h"
 
 #include <cmath>
 
@@ -20,15 +21,6 @@ struct PieceOfSurvey {
     std::vector<Index> inverted;
 };
 
-template<std::size_t N>
-double length_of(const std::array<double, N>& x) {
-    double square = 0;
-    for (const double each : x) {
-        square += each * each;
-    }
-    return std::sqrt(square);
-}
-
 /// How far a normal points out of the cap that the cell is in; nothing to a cell of the side.
 template<int D>
 double out_of_cap(Region region, const Point<D + 1>& normal) {
@@ -42,7 +34,7 @@ void survey_piece(const HullView<D>& view, double sign, std::size_t begin, std::
     for (std::size_t c = begin; c < end; ++c) {
         const auto corners = corners_of<D, D + 1>(view.cells()[c], view.points());
         const Point<D + 1> normal = piece.sums[static_cast<std::size_t>(view.region[c])].add(corners, origin);
-        if (is_degenerate<D, D + 1>(corners, length_of(normal)) && !repeats_vertex<D>(view.cells()[c])) {
+        if (is_degenerate<D, D + 1>(corners, norm(normal)) && !repeats_a_vertex(view.cells()[c])) {
             piece.degenerate.push_back(static_cast<Index>(c));
         }
         if (sign * out_of_cap<D>(view.region_of(c), normal) < 0) {

@@ -89,7 +89,7 @@ public:
 private:
     void check_names() {
         for (const Index c :
-             select(report_.cells, [&](std::size_t k) { return repeats_vertex<D + 1>(filling_.cells[k]); })) {
+             select(report_.cells, [&](std::size_t k) { return repeats_a_vertex(filling_.cells[k]); })) {
             findings_.cell(Defect::repeated_vertex, c, "names a vertex twice");
         }
         std::vector<std::uint8_t> used(report_.vertices, 0);
@@ -234,7 +234,7 @@ private:
             sums.time = {std::min(sums.time[0], corner[D]), std::max(sums.time[1], corner[D])};
         }
         const int sign = simplex_sign<D + 1>(corners);
-        if (sign <= 0 && !repeats_vertex<D + 1>(filling_.cells[c])) {
+        if (sign <= 0 && !repeats_a_vertex(filling_.cells[c])) {
             sums.not_positive.emplace_back(c, sign);
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/check/check_shape.h"
 #include "core/hash.h"
+#include "slabhull/core/vector.h"
 
 #include <fmt/format.h>
 
@@ -17,21 +18,12 @@ namespace {
 /// relied on.
 constexpr double degenerate = 1e-14;
 
-template<std::size_t N>
-double square_distance(const std::array<double, N>& a, const std::array<double, N>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < N; ++i) {
-        sum += (a[i] - b[i]) * (a[i] - b[i]);
-    }
-    return sum;
-}
-
 template<int D, int N>
 double longest_edge(const std::array<Point<N>, D + 1>& corners) {
     double square = 0;
     for (std::size_t i = 0; i <= D; ++i) {
         for (std::size_t j = i + 1; j <= D; ++j) {
-            square = std::max(square, square_distance(corners[i], corners[j]));
+            square = std::max(square, squared_distance(corners[i], corners[j]));
         }
     }
     return std::sqrt(square);
@@ -42,7 +34,7 @@ template<int D, int N>
 bool is_far_from_degenerate(double measure, const std::array<Point<N>, D + 1>& corners) {
     double square = 0;
     for (std::size_t i = 1; i <= D; ++i) {
-        square = std::max(square, square_distance(corners[0], corners[i]));
+        square = std::max(square, squared_distance(corners[0], corners[i]));
     }
     double scale = degenerate * degenerate;
     for (int k = 0; k < D; ++k) {
@@ -214,7 +206,7 @@ template<int D, int N>
 void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,
                       Findings& findings) {
     const auto bad = select(cells.size(), [&](std::size_t c) {
-        return is_degenerate<D, N>(corners_of<D, N>(cells[c], points)) && !repeats_vertex<D>(cells[c]);
+        return is_degenerate<D, N>(corners_of<D, N>(cells[c], points)) && !repeats_a_vertex(cells[c]);
     });
     report_degenerate<D, N>(points, cells, bad, findings);
 }

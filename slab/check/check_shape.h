@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slab/check/findings.h"
+#include "topology/complex/repeated_vertex.h"
 
 #include <span>
 
@@ -34,19 +35,6 @@ void report_degenerate(std::span<const Point<N>> points, std::span<const Simplex
 template<int D, int N>
 void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,
                       Findings& findings);
-
-/// Whether a cell names a vertex twice.
-template<int D>
-bool repeats_vertex(const Simplex<D>& cell) {
-    for (std::size_t i = 0; i <= D; ++i) {
-        for (std::size_t j = i + 1; j <= D; ++j) {
-            if (cell[i] == cell[j]) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
 
 /// Hands the findings of examine_manifold() on, those it did not keep as numbers, but for some kinds.
 void translate(const ManifoldReport& report, std::initializer_list<ManifoldDefect> except,

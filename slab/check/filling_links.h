@@ -35,11 +35,4 @@ void check_links(std::span<const Point<D + 1>> points, std::span<const Simplex<D
 template<int D>
 void check_boundary(std::size_t vertex_count, std::span<const Simplex<D>> facets, Findings& findings);
 
-extern template void check_links<2>(std::span<const Point<3>>, std::span<const Simplex<3>>,
-                                    const OpenFacets<2>&, Findings&);
-extern template void check_links<3>(std::span<const Point<4>>, std::span<const Simplex<4>>,
-                                    const OpenFacets<3>&, Findings&);
-extern template void check_boundary<2>(std::size_t, std::span<const Simplex<2>>, Findings&);
-extern template void check_boundary<3>(std::size_t, std::span<const Simplex<3>>, Findings&);
-
 } // namespace slabhull

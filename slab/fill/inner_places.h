@@ -13,7 +13,4 @@ namespace slabhull {
 template<int D>
 void place_inside(const Hull<D>& hull, const SlabColumns<D>& columns, Filling<D>& filling);
 
-extern template void place_inside<2>(const Hull<2>&, const SlabColumns<2>&, Filling<2>&);
-extern template void place_inside<3>(const Hull<3>&, const SlabColumns<3>&, Filling<3>&);
-
 } // namespace slabhull

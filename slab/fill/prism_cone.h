@@ -59,7 +59,4 @@ struct PrismCone {
 template<int D>
 bool connect_cone(PrismCone<D>& cone);
 
-extern template bool connect_cone<2>(PrismCone<2>&);
-extern template bool connect_cone<3>(PrismCone<3>&);
-
 } // namespace slabhull

@@ -36,7 +36,4 @@ struct SlabColumns {
 template<int D>
 SlabColumns<D> slab_columns(const Hull<D>& hull, Filling<D>& filling);
 
-extern template SlabColumns<2> slab_columns<2>(const Hull<2>&, Filling<2>&);
-extern template SlabColumns<3> slab_columns<3>(const Hull<3>&, Filling<3>&);
-
 } // namespace slabhull

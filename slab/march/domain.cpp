@@ -4,6 +4,7 @@
 #include "core/listed.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/vector.h"
+#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/geometry/embedding.h"
 #include "slabhull/geometry/measures.h"
 #include "slabhull/slab/sweep.h"

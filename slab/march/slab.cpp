@@ -20,6 +20,7 @@ namespace {
 template<int D>
 CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SlabSettings<D>& settings,
                     Slab<D>& slab, StageClock& clock) {
+    enter_stage(cap_meshing_stage);
     if (settings.reuse == CapReuse::move) {
         ReusedCap<D> reused = reuse_cap<D>(initial, sweep, settings.reuse_angle);
         slab.moved_angle = reused.smallest_angle;
@@ -31,7 +32,7 @@ CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const 
     }
     CapMesh<D> mesh = mesh_cap<D>(sweep.boundary, sweep.at(sweep.layers()), settings.cap);
     slab.cap_blocks = mesh.blocks;
-    clock.book("cap meshing");
+    clock.book(cap_meshing_stage);
     return mesh;
 }
 
@@ -61,9 +62,7 @@ constexpr double bytes_per_simplex = D == 3 ? 39 : 36;
 /// Throws LimitError, with the figures, where the side would be more than indices or memory can hold.
 template<int D>
 void require_attainable_side(const Boundary<D>& boundary, std::size_t layers, Split split) {
-    const auto facets = static_cast<double>(boundary.facets().size());
-    const auto of_prism = simplices_per_prism(split);
-    const double simplices = facets * static_cast<double>(layers) * of_prism;
+    const double simplices = side_simplex_count(boundary.facets().size(), layers, split);
     const double levels =
         8.0 * D * static_cast<double>(boundary.vertex_count()) * static_cast<double>(layers);
     const double bytes = bytes_per_simplex<D> * simplices + levels;
@@ -76,7 +75,8 @@ void require_attainable_side(const Boundary<D>& boundary, std::size_t layers, Sp
         "a side of {} facets in {} layers, {} simplices each, is {:.3g} simplices and takes {:.3g} GB; "
         "indices count up "
         "to {:.2g}, and {:.3g} GB are free. Fewer layers, more slabs or a coarser boundary would do",
-        boundary.facets().size(), layers, of_prism, simplices, 1e-9 * bytes, most_indices, 1e-9 * free)};
+        boundary.facets().size(), layers, simplices_per_prism(split), simplices, 1e-9 * bytes, most_indices,
+        1e-9 * free)};
 }
 
 /// Step 3 of the method, with layers as they are given or as the motion needs them.
@@ -123,26 +123,25 @@ template<int D>
 Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock) {
     Slab<D> slab;
-    enter_stage("trajectories");
-    Sweep<D> sweep = sweep_slab(boundary, initial.mesh(), std::move(times), settings, slab);
-    clock.book("trajectories");
-    enter_stage("boundary check");
-    require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
-    clock.book("boundary check");
-    enter_stage("cap meshing");
+    Sweep<D> sweep = clock.run("trajectories", [&] {
+        return sweep_slab(boundary, initial.mesh(), std::move(times), settings, slab);
+    });
+    clock.run(boundary_check_stage, [&] {
+        require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
+    });
     CapMesh<D> mesh = make_cap<D>(initial.mesh(), sweep, settings, slab, clock);
-    enter_stage("stitching");
-    IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
-    SpatialMesh<D> terminating = terminating_cap<D>(sweep, std::move(mesh), ids);
-    if (settings.reuse == CapReuse::move) {
-        track_inside<D>(initial, sweep, slab, terminating);
-    }
-    slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
-    slab.terminating_facets.assign(boundary.facets().begin(), boundary.facets().end());
-    slab.hull.slab = number;
-    slab.projected = std::move(sweep.projected);
-    slab.next_ids = ids;
-    clock.book("stitching");
+    clock.run("stitching", [&] {
+        IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
+        SpatialMesh<D> terminating = terminating_cap<D>(sweep, std::move(mesh), ids);
+        if (settings.reuse == CapReuse::move) {
+            track_inside<D>(initial, sweep, slab, terminating);
+        }
+        slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
+        slab.terminating_facets.assign(boundary.facets().begin(), boundary.facets().end());
+        slab.hull.slab = number;
+        slab.projected = std::move(sweep.projected);
+        slab.next_ids = ids;
+    });
     return slab;
 }
 

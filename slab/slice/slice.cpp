@@ -8,6 +8,7 @@
 #include "slab/slice/cut_table.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/vector.h"
 #include "slabhull/geometry/measures.h"
 #include "slabhull/topology/adjacency.h"
 #include "slabhull/topology/manifold.h"
@@ -240,11 +241,6 @@ void require_fitting(const HullColumns<D>& hull, const SliceOptions& options) {
     }
 }
 
-template<int D>
-double length(const Point<D>& x) {
-    return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0));
-}
-
 void require_times(std::span<const double> times, const TimeSpan& span) {
     for (std::size_t k = 0; k < times.size(); ++k) {
         if (!span.contains(times[k])) {
@@ -322,7 +318,7 @@ SectionReport measure_section(const Section<D>& section) {
             simplex_normal<D - 1>(corners_of<D - 1, D>(surface.facets[f], surface.points));
         PatchMeasure& patch = patches[surface.patch[f]];
         ++patch.facets;
-        patch.measure += length<D>(normal);
+        patch.measure += norm(normal);
         std::transform(sum.begin(), sum.end(), normal.begin(), sum.begin(), std::plus<>{});
         all[f] = static_cast<Index>(f);
     }
@@ -332,7 +328,7 @@ SectionReport measure_section(const Section<D>& section) {
         report.patches.push_back(patch);
     }
     report.enclosed = enclosed_by<D>(surface, all);
-    report.closure = length<D>(sum);
+    report.closure = norm(sum);
     return report;
 }
 

@@ -18,7 +18,4 @@ struct CellFacet {
 template<int D>
 Array<CellFacet> find_boundary_facets(const SpatialMesh<D>& mesh);
 
-extern template Array<CellFacet> find_boundary_facets<2>(const SpatialMesh<2>&);
-extern template Array<CellFacet> find_boundary_facets<3>(const SpatialMesh<3>&);
-
 } // namespace slabhull

@@ -45,9 +45,4 @@ template<int D>
 PrismChoice choose_templates(const SideOptions& options, const PrismGraph<D>& graph,
                              const DiagonalFacts<D>& facts);
 
-extern template PrismChoice choose_templates<2>(const SideOptions&, const PrismGraph<2>&,
-                                                const DiagonalFacts<2>&);
-extern template PrismChoice choose_templates<3>(const SideOptions&, const PrismGraph<3>&,
-                                                const DiagonalFacts<3>&);
-
 } // namespace slabhull

@@ -2,6 +2,7 @@
 #include "slab/stitch/prism_graph.h"
 
 #include "slabhull/core/parallel.h"
+#include "slabhull/topology/halfedge_mesh.h"
 #include "slabhull/topology/matching.h"
 
 #include <vector>

@@ -42,7 +42,4 @@ struct PrismGraph {
 template<int D>
 PrismGraph<D> connect_prisms(const Boundary<D>& boundary, const SplitRecipe& recipe);
 
-extern template PrismGraph<2> connect_prisms<2>(const Boundary<2>&, const SplitRecipe&);
-extern template PrismGraph<3> connect_prisms<3>(const Boundary<3>&, const SplitRecipe&);
-
 } // namespace slabhull

@@ -8,6 +8,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/geometry/cap_mesher.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -331,6 +332,10 @@ SpatialMesh<D> terminating_cap_of(const Hull<D>& hull, Array<Facet<D>> boundary_
     hull.vertex_ids.copy(first_point, hull.points.size(), cap.vertex_ids.data());
     hull.track_ids.copy(first_point, hull.points.size(), cap.track_ids.data());
     return cap;
+}
+
+double side_simplex_count(std::size_t facets, std::size_t layers, Split split) {
+    return static_cast<double>(facets) * static_cast<double>(layers) * simplices_per_prism(split);
 }
 
 template<int D>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/tables/displacement_files.h"
-#include "cases/tables/point_finder.h"
+#include "geometry/basics/point_finder.h"
 
 #include "geometry/random_points.h"
 #include "io/scratch.h"
@@ -155,7 +155,7 @@ double error_at(const NodalMotion<D>& motion, const Domain<D>& domain, double t)
         for (std::size_t k = 0; k < D; ++k) {
             wanted[k] += start[k];
         }
-        worst = std::max(worst, tests::distance(x[i], wanted));
+        worst = std::max(worst, distance(x[i], wanted));
     }
     return worst;
 }
@@ -449,18 +449,18 @@ TEMPLATE_TEST_CASE_SIG("a point finder finds the same points as a look at all of
         for (const double radius : {0.0, 0.05, 0.3, 5.0}) {
             std::vector<std::size_t> expected;
             for (std::size_t i = 0; i < points.size(); ++i) {
-                if (tests::distance(points[i], x) <= radius) {
+                if (distance(points[i], x) <= radius) {
                     expected.push_back(i);
                 }
             }
             std::stable_sort(expected.begin(), expected.end(), [&](std::size_t a, std::size_t b) {
-                return tests::distance(points[a], x) < tests::distance(points[b], x);
+                return distance(points[a], x) < distance(points[b], x);
             });
             CHECK(finder.within(x, radius) == expected);
         }
         const auto nearest = finder.nearest(x);
         CHECK(std::none_of(points.begin(), points.end(), [&](const Point<D>& other) {
-            return tests::distance(other, x) < tests::distance(points[nearest], x);
+            return distance(other, x) < distance(points[nearest], x);
         }));
     }
     for (std::size_t i = 0; i < points.size(); ++i) {

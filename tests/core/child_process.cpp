@@ -6,11 +6,13 @@
 #include "slabhull/core/array.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/progress.h"
 
 #include <catch2/catch.hpp>
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -18,11 +20,14 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <new>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <thread>
+#include <vector>
 
 #include <sys/resource.h>
 #include <sys/types.h>
@@ -129,6 +134,7 @@ TEST_CASE("what the host ignores, the child ignores", "[child]") {
 TEST_CASE("a child prints until it falls silent, and then leaves no core", "[child]") {
     std::FILE* const printed = std::tmpfile();
     REQUIRE(printed != nullptr);
+    std::cout << std::flush; // what Catch has printed so far is not the child's
     rlimit core{1, 1};
     run_in_child(
         [&](const Send& send) {
@@ -273,4 +279,25 @@ TEST_CASE("a child does not outlive its parent", "[child]") {
         gone = state.empty() || state == "Z";
     }
     CHECK(gone);
+}
+
+TEST_CASE("a child can allocate, whatever other threads were allocating when it was made", "[child]") {
+    const auto allocate = [] {
+        std::vector<std::unique_ptr<char[]>> held;
+        for (std::size_t k = 0; k < 3000; ++k) {
+            held.emplace_back(new char[16 + 37 * k % 3000]);
+        }
+    };
+    for (int round = 0; round < 20; ++round) {
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds{30};
+        const ProgressScope limit{
+            [&](const std::string&) { return std::chrono::steady_clock::now() < deadline; }};
+        std::vector<std::jthread> others;
+        for (int k = 0; k < 3; ++k) {
+            others.emplace_back(allocate);
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds{150 * round});
+        const ChildEnd end = run_in_child([&](const Send&) { allocate(); }, receive_nothing);
+        REQUIRE(end.exit_code == 0);
+    }
 }

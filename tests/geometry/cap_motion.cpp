@@ -3,6 +3,7 @@
 
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/vector.h"
 #include "slabhull/geometry/affine.h"
 #include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/geometry/measures.h"
@@ -87,19 +88,10 @@ MovedCap<D> move_room(const Room<D>& room, const std::type_identity_t<Points<D>>
 }
 
 template<int D>
-double distance(const Point<D>& a, const Point<D>& b) {
-    double squares = 0;
-    for (std::size_t k = 0; k < D; ++k) {
-        squares += (a[k] - b[k]) * (a[k] - b[k]);
-    }
-    return std::sqrt(squares);
-}
-
-template<int D>
 double largest_distance(const Array<Point<D>>& a, const Array<Point<D>>& b) {
     double result = 0;
     for (std::size_t v = 0; v < a.size(); ++v) {
-        result = std::max(result, distance<D>(a[v], b[v]));
+        result = std::max(result, distance(a[v], b[v]));
     }
     return result;
 }
@@ -282,7 +274,7 @@ TEMPLATE_TEST_CASE_SIG("boundary vertices end at their targets bit for bit, what
     }
     double apart = 0;
     for (std::size_t v = 0; v < number.size(); ++v) {
-        apart = std::max(apart, distance<D>(moved.points[number[v]], plain[v]));
+        apart = std::max(apart, distance(moved.points[number[v]], plain[v]));
     }
     CHECK(apart < 1e-5);
 }

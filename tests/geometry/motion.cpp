@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/motion.h"
 
+#include "geometry/motion_samples.h"
 #include "geometry/random_points.h"
 
 #include "slabhull/core/error.h"
@@ -15,22 +16,14 @@
 #include <vector>
 
 using namespace slabhull;
-using tests::distance;
+using tests::corner;
 using tests::random_points;
+using tests::velocity_at;
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-template<int D>
-Point<D> corner(double first, double second, double third) {
-    if constexpr (D == 2) {
-        return {first, second};
-    } else {
-        return {first, second, third};
-    }
-}
 
 /// One of each kind that has a closed form.
 template<int D>
@@ -38,13 +31,6 @@ std::vector<MotionPointer<D>> closed_forms() {
     const Point<D> centre = corner<D>(0.5, -2, 1);
     return {standing<D>(), translation<D>(corner<D>(1, -0.5, 3)), expansion<D>(centre, 0.25, 0.5),
             expansion<D>(centre, -0.2, 0), rotation<D>(corner<D>(1, 2, -2), centre, -1.5)};
-}
-
-template<int D>
-Point<D> velocity_at(const Motion<D>& motion, const Point<D>& x, double t) {
-    Point<D> v;
-    motion.velocity({&x, 1}, t, {&v, 1});
-    return v;
 }
 
 template<int D>

@@ -15,7 +15,6 @@
 using namespace slabhull;
 using detail::ParametricSearch;
 using detail::SurfaceJet;
-using tests::distance;
 using tests::random_points;
 
 namespace {

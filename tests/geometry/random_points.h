@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "slabhull/core/point.h"
+#include "slabhull/core/vector.h"
 
 #include <cmath>
 #include <cstddef>
@@ -22,15 +22,6 @@ std::vector<Point<D>> random_points(std::size_t count, double reach, std::uint64
         }
     }
     return points;
-}
-
-template<std::size_t N>
-double distance(const std::array<double, N>& a, const std::array<double, N>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < N; ++i) {
-        sum += (a[i] - b[i]) * (a[i] - b[i]);
-    }
-    return std::sqrt(sum);
 }
 
 } // namespace slabhull::tests

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/rigid_table.h"
 
+#include "geometry/motion_samples.h"
 #include "geometry/random_points.h"
 
 #include "slabhull/core/error.h"
@@ -16,8 +17,8 @@
 #include <vector>
 
 using namespace slabhull;
-using tests::distance;
 using tests::random_points;
+using tests::velocity_at;
 
 namespace {
 
@@ -116,13 +117,6 @@ std::vector<MotionPointer<D>> specimens(int count) {
         return {rigid_table<3>(by_angles(count), centre), rigid_table<3>(by_quaternions(count), centre),
                 rigid_table<3>(no_turn, centre), rigid_table<3>(no_shift, centre)};
     }
-}
-
-template<int D>
-Point<D> velocity_at(const Motion<D>& motion, const Point<D>& x, double t) {
-    Point<D> v;
-    motion.velocity({&x, 1}, t, {&v, 1});
-    return v;
 }
 
 /// Where the motion takes points that were placed at time 0, against where they are in truth.

@@ -4,6 +4,7 @@
 #include "slabhull/geometry/rigid_table.h"
 #include "slabhull/geometry/trajectory.h"
 
+#include "geometry/motion_samples.h"
 #include "geometry/random_points.h"
 
 #include "slabhull/core/error.h"
@@ -17,26 +18,11 @@
 #include <vector>
 
 using namespace slabhull;
-using tests::distance;
+using tests::corner;
 using tests::random_points;
+using tests::velocity_at;
 
 namespace {
-
-template<int D>
-Point<D> corner(double first, double second, double third) {
-    if constexpr (D == 2) {
-        return {first, second};
-    } else {
-        return {first, second, third};
-    }
-}
-
-template<int D>
-Point<D> velocity_at(const Motion<D>& motion, const Point<D>& x, double t) {
-    Point<D> v;
-    motion.velocity({&x, 1}, t, {&v, 1});
-    return v;
-}
 
 constexpr double start = 0.5;
 

@@ -16,7 +16,6 @@
 #include <vector>
 
 using namespace slabhull;
-using tests::distance;
 
 namespace {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/size_field.h"
 
+#include "slabhull/core/vector.h"
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -24,21 +26,12 @@ struct Cloud {
     }
 };
 
-template<int D>
-double distance(const Point<D>& a, const Point<D>& b) {
-    double square = 0;
-    for (std::size_t k = 0; k < D; ++k) {
-        square += (a[k] - b[k]) * (a[k] - b[k]);
-    }
-    return std::sqrt(square);
-}
-
 /// h(x) as it is defined.
 template<int D>
 double by_definition(const Cloud<D>& cloud, const Grading& grading, const Point<D>& x) {
     double least = grading.largest;
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-        least = std::min(least, cloud.spacing[i] + grading.growth * distance<D>(cloud.points[i], x));
+        least = std::min(least, cloud.spacing[i] + grading.growth * distance(cloud.points[i], x));
     }
     return least;
 }

@@ -20,7 +20,6 @@
 #include <vector>
 
 using namespace slabhull;
-using tests::distance;
 using tests::random_points;
 
 namespace {

@@ -15,9 +15,7 @@ const std::string small =
     "\"elements\":\n[ 0, 1, 2, 3 ]\n}\n";
 
 std::string refusal_with(const std::string& from, const std::string& to) {
-    const scratch::Folder folder;
-    return scratch::refusal(io::read_avro,
-                            scratch::put(folder / "a.avro", scratch::replaced(small, from, to)));
+    return scratch::refusal(io::read_avro, "a.avro", scratch::replaced(small, from, to));
 }
 
 void says(const std::string& message, const std::string& text) {

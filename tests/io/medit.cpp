@@ -15,9 +15,7 @@ const std::string small = "MeshVersionFormatted 2\n# a comment\nDimension 3\nVer
                           "0 1 0 0\n0 0 1 0\nTriangles\n1\n1 2 3 5\nTetrahedra\n1\n1 2 3 4 7\nEnd\n";
 
 std::string refusal_with(const std::string& from, const std::string& to) {
-    const scratch::Folder folder;
-    return scratch::refusal(io::read_medit,
-                            scratch::put(folder / "a.mesh", scratch::replaced(small, from, to)));
+    return scratch::refusal(io::read_medit, "a.mesh", scratch::replaced(small, from, to));
 }
 
 bool says(const std::string& message, const std::string& text) {

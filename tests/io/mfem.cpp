@@ -17,9 +17,7 @@ const std::string small =
     "2\n0 0\n1 0\n1 1\n0 1.5\n";
 
 std::string refusal_with(const std::string& from, const std::string& to) {
-    const scratch::Folder folder;
-    return scratch::refusal(io::read_mfem,
-                            scratch::put(folder / "a.mesh", scratch::replaced(small, from, to)));
+    return scratch::refusal(io::read_mfem, "a.mesh", scratch::replaced(small, from, to));
 }
 
 void says(const std::string& message, const std::string& text) {

@@ -20,9 +20,7 @@ const std::string small_text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
                                "$Elements\n2\n1 2 2 5 1 1 2 3\n2 4 2 7 1 1 2 3 4\n$EndElements\n";
 
 std::string text_refusal(const std::string& from, const std::string& to) {
-    const scratch::Folder folder;
-    return scratch::refusal(io::read_msh,
-                            scratch::put(folder / "a.msh", scratch::replaced(small_text, from, to)));
+    return scratch::refusal(io::read_msh, "a.msh", scratch::replaced(small_text, from, to));
 }
 
 PatchList walls_and_inlet() {

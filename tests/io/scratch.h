@@ -80,6 +80,13 @@ std::string refusal(const Read& read, const std::filesystem::path& path) {
     return {};
 }
 
+/// The same of a file of that name with these bytes.
+template<class Read>
+std::string refusal(const Read& read, const std::string& name, const std::string& bytes) {
+    const Folder folder;
+    return refusal(read, put(folder / name, bytes));
+}
+
 /// Reads the file with random bytes changed, `rounds` times: whatever comes, it is a soup or an InputError.
 /// Returns how many were refused.
 template<class Read>

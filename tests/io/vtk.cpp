@@ -31,8 +31,7 @@ io::Soup read_text(const std::string& text) {
 }
 
 std::string text_refusal(const std::string& text) {
-    const scratch::Folder folder;
-    return scratch::refusal(io::read_vtk, scratch::put(folder / "a.vtk", text));
+    return scratch::refusal(io::read_vtk, "a.vtk", text);
 }
 
 std::string text_refusal(const std::string& from, const std::string& to) {

@@ -29,9 +29,7 @@ const std::string small_text =
     "</Piece></UnstructuredGrid></VTKFile>\n";
 
 std::string text_refusal(const std::string& from, const std::string& to) {
-    const scratch::Folder folder;
-    return scratch::refusal(io::read_vtu,
-                            scratch::put(folder / "a.vtu", scratch::replaced(small_text, from, to)));
+    return scratch::refusal(io::read_vtu, "a.vtu", scratch::replaced(small_text, from, to));
 }
 
 } // namespace

@@ -125,8 +125,7 @@ std::string packed_file(const std::string& appended, std::uint64_t points = 4, i
 }
 
 std::string packed_refusal(const std::string& file) {
-    const scratch::Folder folder;
-    return scratch::refusal(io::read_vtu, scratch::put(folder / "a.vtu", file));
+    return scratch::refusal(io::read_vtu, "a.vtu", file);
 }
 
 } // namespace

@@ -120,7 +120,7 @@ TEMPLATE_TEST_CASE_SIG("repeated vertices, duplicated cells, unused and coincide
     CHECK(check(mesh).count(Defect::repeated_vertex) == 1);
 }
 
-TEMPLATE_TEST_CASE_SIG("a cell without a measure", "", ((int D), D), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a cell of a mesh without a measure", "", ((int D), D), 2, 3) {
     auto mesh = specimens::full_box<D>(1);
     Simplex<D> flat = mesh.cells[0]; // on a facet of the boundary, with a new vertex in its plane
     Point<D> middle{};

@@ -35,16 +35,6 @@ std::vector<SideOptions> all_sides() {
     }
 }
 
-/// A slow flow that bends every prism.
-template<int D>
-MotionPointer<D> bending_flow() {
-    if constexpr (D == 2) {
-        return formula_velocity<2>({"0.03*y*y-0.1*t", "0.05*x"}, {});
-    } else {
-        return formula_velocity<3>({"0.03*y*z-0.1*t", "0.05*x", "0.02*x*y"}, {});
-    }
-}
-
 template<int D>
 std::vector<specimens::Grid<D>> family() {
     return {specimens::full_box<D>(1), specimens::box_with_body<D>(), specimens::box_with_two_bodies<D>(),
@@ -56,7 +46,8 @@ const std::vector<double> levels{1.0, 1.2, 1.3, 1.7};
 template<int D>
 SlabParts<D> parts_over(const specimens::Grid<D>& grid) {
     IdCounter ids;
-    return specimens::next_slab<D>(specimens::as_cap<D>(grid, ids), levels, bending_flow<D>(), ids);
+    return specimens::next_slab<D>(specimens::as_cap<D>(grid, ids), levels, specimens::bending_flow<D>(),
+                                   ids);
 }
 
 template<int D>

@@ -33,16 +33,6 @@ std::vector<SideOptions> all_sides() {
     }
 }
 
-/// A slow flow that bends every prism.
-template<int D>
-MotionPointer<D> bending_flow() {
-    if constexpr (D == 2) {
-        return formula_velocity<2>({"0.03*y*y-0.1*t", "0.05*x"}, {});
-    } else {
-        return formula_velocity<3>({"0.03*y*z-0.1*t", "0.05*x", "0.02*x*y"}, {});
-    }
-}
-
 template<int D>
 std::vector<specimens::Grid<D>> family() {
     return {specimens::full_box<D>(1), specimens::full_box<D>(3), specimens::box_with_body<D>(),
@@ -142,7 +132,7 @@ TEMPLATE_TEST_CASE_SIG(
     ((int D), D), 2, 3) {
     for (const auto& grid : family<D>()) {
         for (const std::vector<double>& times : {std::vector{0.0, 0.5}, std::vector{0.0, 0.2, 0.3, 0.5}}) {
-            const auto parts = slab_over<D>(grid, times, bending_flow<D>());
+            const auto parts = slab_over<D>(grid, times, specimens::bending_flow<D>());
             for (const SideOptions& side : all_sides<D>()) {
                 INFO(split_name(side.split) << ", " << times.size() - 1 << " layers");
                 const Hull<D> hull = stitched(parts, side);
@@ -162,7 +152,8 @@ TEMPLATE_TEST_CASE_SIG("stitched hulls pass the whole check", "[stitch]", ((int 
     for (const SideOptions& side : all_sides<D>()) {
         INFO(split_name(side.split));
         const auto check = [&](const specimens::Grid<D>& grid, const std::vector<std::size_t>& betti) {
-            check_sound(stitched(slab_over<D>(grid, {0, 0.25, 0.5}, bending_flow<D>()), side), betti);
+            check_sound(stitched(slab_over<D>(grid, {0, 0.25, 0.5}, specimens::bending_flow<D>()), side),
+                        betti);
         };
         check(specimens::full_box<D>(2), expected(0));
         check(specimens::box_with_body<D>(), expected(1));
@@ -172,7 +163,8 @@ TEMPLATE_TEST_CASE_SIG("stitched hulls pass the whole check", "[stitch]", ((int 
 }
 
 TEMPLATE_TEST_CASE_SIG("the number of threads changes no byte", "[stitch]", ((int D), D), 2, 3) {
-    const auto parts = slab_over<D>(specimens::full_box<D>(12), {0, 0.1, 0.3, 0.5}, bending_flow<D>());
+    const auto parts =
+        slab_over<D>(specimens::full_box<D>(12), {0, 0.1, 0.3, 0.5}, specimens::bending_flow<D>());
     for (const SideOptions& side : all_sides<D>()) {
         set_thread_count(1);
         const Hull<D> one = stitched(parts, side);
@@ -188,7 +180,8 @@ TEMPLATE_TEST_CASE_SIG("the number of threads changes no byte", "[stitch]", ((in
 }
 
 TEST_CASE("diagonals by id start at the smaller track, in every layer", "[stitch]") {
-    const auto parts = slab_over<3>(specimens::box_with_body<3>(), {0, 0.25, 0.5}, bending_flow<3>());
+    const auto parts =
+        slab_over<3>(specimens::box_with_body<3>(), {0, 0.25, 0.5}, specimens::bending_flow<3>());
     const std::size_t facets = parts.sweep.boundary.facet_count();
     const auto check = [&](Split split, Diagonals kind, std::size_t in_layer) {
         const auto diagonals = diagonals_of(stitched(parts, {split, kind}));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/stitch.h"
 #include "slabhull/slab/sweep.h"
 #include "specimens.h"
@@ -89,6 +90,16 @@ SlabParts<D> next_slab(SpatialMesh<D> initial, std::vector<double> times, const 
                                     TrajectoryOptions{});
     parts.terminating = terminating_cap<D>(parts.sweep, meshed_alike<D>(parts.initial, parts.sweep), ids);
     return parts;
+}
+
+/// A slow flow that bends every prism.
+template<int D>
+MotionPointer<D> bending_flow() {
+    if constexpr (D == 2) {
+        return formula_velocity<2>({"0.03*y*y-0.1*t", "0.05*x"}, {});
+    } else {
+        return formula_velocity<3>({"0.03*y*z-0.1*t", "0.05*x", "0.02*x*y"}, {});
+    }
 }
 
 } // namespace slabhull::specimens

@@ -3,6 +3,8 @@
 
 #include "slabhull/core/error.h"
 #include "slabhull/topology/adjacency.h"
+#include "slabhull/topology/halfedge_mesh.h"
+#include "slabhull/topology/simplicial_complex.h"
 #include "topology/specimens.h"
 
 #include <catch2/catch.hpp>

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/topology/boundary.h"
 
+#include "core/used_vertices.h"
 #include "topology/complex/soup_manifold.h"
 
 #include "slabhull/core/error.h"
 #include "slabhull/core/vector.h"
 #include "slabhull/topology/dual_graph.h"
+#include "slabhull/topology/halfedge_mesh.h"
+#include "slabhull/topology/simplicial_complex.h"
 
 #include <boost/graph/connected_components.hpp>
 #include <fmt/format.h>
@@ -222,26 +225,13 @@ Surface<D> boundary_surface(const SpatialMesh<D>& mesh, Array<Index>& mesh_verti
     Surface<D> surface;
     surface.patch = mesh.boundary_patch;
     surface.patches = mesh.patches;
-    std::vector<Index> compact(mesh.points.size(), no_index);
-    for (const auto& facet : mesh.boundary_facets) {
-        for (const Index v : facet) {
-            compact[v] = 0;
-        }
-    }
-    mesh_vertices.clear();
-    for (Index v = 0; v < compact.size(); ++v) {
-        if (compact[v] == 0) {
-            compact[v] = static_cast<Index>(mesh_vertices.size());
-            mesh_vertices.push_back(v);
-            surface.points.push_back(mesh.points[v]);
-        }
-    }
     surface.facets = mesh.boundary_facets;
-    for (auto& facet : surface.facets) {
-        for (Index& v : facet) {
-            v = compact[v];
-        }
+    UsedVertices used{mesh.points.size(), surface.facets};
+    used.renumber(surface.facets);
+    for (const Index v : used.vertices) {
+        surface.points.push_back(mesh.points[v]);
     }
+    mesh_vertices = std::move(used.vertices);
     return surface;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/topology/adjacency.h"
-#include "core/hash.h"
 
-#include "slabhull/core/parallel.h"
+#include "core/hash.h"
+#include "core/pieces.h"
 #include "topology/complex/cell_lists.h"
 #include "topology/complex/sorted_cell.h"
 
@@ -105,8 +105,8 @@ private:
     static constexpr std::size_t hashed_limit = 1 << 14;
     static constexpr std::uint16_t vacant = std::numeric_limits<std::uint16_t>::max();
 
-    /// Cells come from everywhere, so we ask for them, and for their entries in the result, some time before.
-    /// Without branches: what we write of facets of other buckets is overwritten.
+    /// The cells of a bucket lie anywhere in memory, so they and their entries in the result are prefetched.
+    /// Branch-free: what is written for facets of other buckets is overwritten later.
     void gather(std::size_t bucket) {
         constexpr std::size_t ahead = 64;
         const std::span<const Index> all = buckets_.cells;
@@ -129,7 +129,7 @@ private:
         halves_.resize(count);
     }
 
-    /// The quick way: joins what is in exactly two agreeing cells, and leaves the others in faulty_.
+    /// By hashing: joins the facets of exactly two agreeing cells and leaves the others in faulty_.
     void match_by_hashing() {
         const int bits = std::bit_width(2 * halves_.size() + 1);
         table_.assign(std::size_t{1} << bits, vacant);
@@ -157,7 +157,7 @@ private:
         }
     }
 
-    /// Where the first side of this facet is, or goes.
+    /// The slot that holds the first side of this facet, or the vacant one for it.
     std::uint16_t& slot_of(const Half& half, int bits) {
         const std::uint64_t key = OtherVertices<D>::folded(half.others) ^ std::uint64_t{half.smallest}
                                                                               << (64 - bucket_bits);
@@ -168,7 +168,7 @@ private:
         return table_[slot];
     }
 
-    /// The sure way: never quadratic, and finds every defect. Overrules what hashing may have joined.
+    /// By sorting: never quadratic, finds every defect, and overrules what hashing may have joined.
     void settle_faulty(Index first_vertex) {
         const auto key = [](const Half& h) { return std::tuple{h.smallest, h.others, h.cell, +h.place}; };
         std::sort(faulty_.begin(), faulty_.end(),
@@ -182,7 +182,7 @@ private:
         faulty_.clear();
     }
 
-    /// `run` is all sides of one facet.
+    /// `run`: all sides of one facet.
     void settle(Index smallest, std::span<const Half> run) {
         using Kind = typename FacetDefect<D>::Kind;
         if (run.size() == 2) {
@@ -232,22 +232,15 @@ Adjacency<D> build_adjacency(std::span<const Simplex<D>> cells, std::size_t vert
     const CellLists buckets = buckets_by_smallest_vertex<D>(cells, bucket_count);
     Adjacency<D> result;
     result.neighbors.resize(cells.size()); // each half-facet is in one bucket, which writes its entry
-    std::vector<std::vector<FacetDefect<D>>> defects(bucket_count / buckets_per_piece + 1);
-    parallel_for(bucket_count, buckets_per_piece, [&](std::size_t begin, std::size_t end) {
-        BucketMatcher<D> matcher{cells, buckets, result};
-        for (std::size_t bucket = begin; bucket < end; ++bucket) {
-            matcher.match(bucket);
-        }
-        defects[begin / buckets_per_piece] = std::move(matcher.defects);
-    });
-    std::size_t defect_count = 0;
-    for (const std::vector<FacetDefect<D>>& found : defects) {
-        defect_count += found.size();
-    }
-    result.defects.reserve(defect_count);
-    for (std::vector<FacetDefect<D>>& found : defects) {
-        std::move(found.begin(), found.end(), std::back_inserter(result.defects));
-    }
+    result.defects = parallel_gather<FacetDefect<D>>(
+        bucket_count, buckets_per_piece,
+        [&](std::size_t begin, std::size_t end, std::vector<FacetDefect<D>>& defects) {
+            BucketMatcher<D> matcher{cells, buckets, result};
+            for (std::size_t bucket = begin; bucket < end; ++bucket) {
+                matcher.match(bucket);
+            }
+            defects = std::move(matcher.defects);
+        });
     return result;
 }
 

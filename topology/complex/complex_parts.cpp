@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/topology/simplicial_complex.h"
 
+#include "core/used_vertices.h"
 #include "topology/complex/ridge_walk.h"
 
 #include "slabhull/core/error.h"
@@ -12,29 +13,17 @@ namespace slabhull {
 
 namespace {
 
-/// The vertices that `cells` use, ascending; the cells are renumbered to places in this list.
+/// The vertices that `cells` use, ascending; the cells are renumbered to their places in this list.
 template<int D>
 std::vector<VertexId> renumber(Array<Simplex<D>>& cells, std::size_t vertex_count) {
-    Array<Index> place;
-    place.assign(vertex_count, no_index);
-    for (const Simplex<D>& cell : cells) {
-        for (const Index v : cell) {
-            place[v] = 0;
-        }
+    const UsedVertices used{vertex_count, cells};
+    used.renumber(cells);
+    std::vector<VertexId> ids;
+    ids.reserve(used.vertices.size());
+    for (const Index v : used.vertices) {
+        ids.emplace_back(v);
     }
-    std::vector<VertexId> used;
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-        if (place[v] != no_index) {
-            place[v] = static_cast<Index>(used.size());
-            used.emplace_back(static_cast<Index>(v));
-        }
-    }
-    for (Simplex<D>& cell : cells) {
-        for (Index& v : cell) {
-            v = place[v];
-        }
-    }
-    return used;
+    return ids;
 }
 
 /// Adjacency of the boundary's facets, which are given ascending: neighbour k is across the ridge opposite to

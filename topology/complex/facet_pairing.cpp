@@ -11,8 +11,8 @@ namespace slabhull {
 
 namespace {
 
-/// Whether two facets are one, with opposite orientations: the second is the first read backwards, from
-/// anywhere on.
+/// Whether two facets are the same with opposite orientations: the second is a rotation of the first
+/// reversed.
 template<int D>
 bool are_opposite(const Facet<D>& a, const Facet<D>& b) {
     bool any = false;

@@ -8,13 +8,10 @@
 namespace slabhull {
 
 /// Whether `claimed` pairs all half-facets off: each cell has a neighbour across every facet, which shares
-/// that facet, lies on its other side by its orientation, and has the cell as its neighbour there. The four
-/// cells of one facet may be paired by twos: what this finds is not yet an adjacency. Needs: vertices that
-/// exist; false for a claim of the wrong length or range. Cost: linear, no memory.
+/// that facet, lies on its other side by its orientation, and has the cell as its neighbour there. A facet
+/// of four cells passes when they are paired by twos, so this alone does not prove an adjacency. Needs:
+/// vertices in range; false for a claim of the wrong length or range. Cost: linear, no memory.
 template<int D>
 bool pairs_facets(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> claimed);
-
-extern template bool pairs_facets<2>(std::span<const Simplex<2>>, std::span<const Neighbors<2>>);
-extern template bool pairs_facets<3>(std::span<const Simplex<3>>, std::span<const Neighbors<3>>);
 
 } // namespace slabhull

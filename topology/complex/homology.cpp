@@ -76,7 +76,7 @@ private:
         return {e[tetrahedron_edge(a, b)], e[tetrahedron_edge(a, c)], e[tetrahedron_edge(b, c)]};
     }
 
-    /// Leaves every triangle that is not crossed by a spanning forest of the dual graph.
+    /// Keeps the triangles that are not crossed by a spanning forest of the dual graph.
     void cut_dual_forest() {
         UnionFind joined{cells_.size()};
         for (std::size_t c = 0; c < cells_.size(); ++c) {

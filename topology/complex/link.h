@@ -14,7 +14,7 @@ struct LinkFaults {
     /// Link vertices in which several cycles of cells meet: the edge to each of them is singular (D = 3).
     /// Ascending.
     std::vector<Index> pinches;
-    /// Parts into which the link falls; parts that touch in a pinch count as one.
+    /// Connected components of the link; those that touch in a pinch count as one.
     std::size_t pieces = 0;
     /// Euler characteristic of the first piece that is not a sphere when cut apart at its pinches (D = 3),
     /// else 2.

@@ -8,6 +8,7 @@
 #include "topology/complex/cell_lists.h"
 #include "topology/complex/facet_pairing.h"
 #include "topology/complex/link.h"
+#include "topology/complex/repeated_vertex.h"
 #include "topology/complex/sorted_cell.h"
 #include "topology/complex/star_counter.h"
 #include "topology/complex/union_find.h"
@@ -50,13 +51,6 @@ void each_vertex(const std::array<Index, N>& cell, const Visit& visit) {
 }
 
 template<std::size_t N>
-bool repeats_a_vertex(const std::array<Index, N>& cell) {
-    std::size_t distinct = 0;
-    each_vertex(cell, [&](Index) { ++distinct; });
-    return distinct < N;
-}
-
-template<std::size_t N>
 std::vector<Index> list_of(const std::array<Index, N>& indices) {
     return {indices.begin(), indices.end()};
 }
@@ -93,7 +87,7 @@ public:
         return std::move(report_);
     }
 
-    /// After run(): whether there was no vertex to be looked at closely.
+    /// After run(): whether no vertex had to be examined closely.
     bool sound() const { return sound_; }
 
 private:
@@ -218,10 +212,10 @@ private:
     // --- vertices
     // ------------------------------------------------------------------------------------------------
 
-    /// Of consecutive vertices.
+    /// How consecutive vertices are used.
     struct Usage {
-        Array<Index> one;   ///< of the cells that use each vertex
-        Array<Index> cells; ///< how many do, where that is counted
+        Array<Index> one;   ///< a cell that uses each vertex
+        Array<Index> cells; ///< the number of such cells, if counted
     };
 
     Usage find_usage(const CellStretches<D>& stretches, std::size_t begin, std::size_t end,
@@ -267,8 +261,8 @@ private:
             : unused(vertex_count, vertices_per_walk), suspects(vertex_count, vertices_per_walk) {}
     };
 
-    /// Stars that are walked whole have as many cells as there are corners of cells, together: only when they
-    /// have not, it is counted how many each should have.
+    /// If every star is walked whole, their cells add up to the corners of all cells. Only if they do not,
+    /// the cells at each vertex are counted, to find which star is incomplete.
     void examine_vertices() {
         Survey survey = survey_stars(false);
         if (survey.cells != cells_.size() * (D + 1)) {
@@ -337,7 +331,7 @@ private:
         }
     }
 
-    /// Returns how many vertices their links have.
+    /// Returns the number of vertices in their links.
     std::size_t examine_suspects(const std::vector<Index>& suspects) {
         if (suspects.empty()) {
             return 0;
@@ -412,8 +406,8 @@ private:
         }
     }
 
-    /// Where the cells at each vertex are joined through facets, cells are so when they are through vertices:
-    /// there are fewer of those.
+    /// If every star is joined through facets, components by shared vertices are those by shared facets, and
+    /// vertices are fewer than cells.
     std::size_t components() const {
         if (!adjacency_.defects.empty() || !discredited_.empty() || !sound_) {
             return count_components<D>(adjacency_.neighbors);
@@ -443,7 +437,7 @@ private:
     ManifoldReport report_;
     std::vector<Index> discredited_; ///< cells at fault themselves, ascending
     ScratchPool<StarCounter<D>> counters_;
-    bool sound_ = false;        ///< the star and the link of every vertex that is used
+    bool sound_ = false;        ///< the star and the link of every used vertex are
     std::vector<bool> tainted_; ///< vertices of facets and cells at fault; empty when there are none
 };
 

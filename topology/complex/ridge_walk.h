@@ -36,7 +36,7 @@ public:
     RidgeWalk(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> neighbors)
         : cells_{cells}, neighbors_{neighbors} {}
 
-    /// The place from which the neighbour across a facet looks back.
+    /// The same facet as a local number of the neighbour across it.
     std::optional<std::size_t> place_seen_from_across(Index cell, std::size_t facet) const {
         const Index other = neighbors_[cell][facet];
         return other == no_index ? std::nullopt : place_of(neighbors_[other], cell);

@@ -127,7 +127,7 @@ template<int D>
 SimplicialComplex<D> SimplicialComplex<D>::adopt(Array<Simplex<D>> cells, Array<Neighbors<D>> neighbors,
                                                  std::size_t vertex_count) {
     SimplicialComplex complex = view(cells, neighbors, vertex_count);
-    complex.own_cells_ = std::move(cells); // what the spans see stays where it is
+    complex.own_cells_ = std::move(cells); // moving keeps the memory that the spans refer to
     complex.own_neighbors_ = std::move(neighbors);
     return complex;
 }

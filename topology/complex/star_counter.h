@@ -15,7 +15,7 @@
 
 namespace slabhull {
 
-/// A set of numbers, cleared in no time; small enough to stay in the first cache.
+/// A set of numbers that is cleared in constant time and fits the first-level cache.
 template<class Key>
 class MarkSet {
 public:
@@ -87,10 +87,10 @@ public:
     struct Count {
         std::size_t cells;    ///< reached from the first through facets at the vertex
         std::size_t vertices; ///< of those cells, without the vertex itself
-        bool facet_twice; ///< there are two pairs of neighbours with one facet, whose smallest vertex it is
+        bool facet_twice;     ///< two pairs of neighbours have one facet, whose smallest vertex it is
     };
 
-    /// A quick walk may take two facets for one, and is rarely repeated with a sure look at them.
+    /// A quick walk may mistake two facets for one; then it is repeated exactly, which is rare.
     Count count(Index vertex, Index first) {
         Count counted = walk(vertex, first, quick_facets_);
         if (counted.facet_twice) {
@@ -99,7 +99,7 @@ public:
         return counted;
     }
 
-    /// To be called some time before a cell is looked at.
+    /// Prefetches a cell that is looked at soon.
     void prefetch(Index cell) const {
         __builtin_prefetch(&cells_[cell]);
         __builtin_prefetch(&neighbors_[cell]);
@@ -111,7 +111,7 @@ private:
         Index facet; ///< parity of the vertices of the facet through which it was reached
     };
 
-    /// The places of a simplex besides two.
+    /// The local numbers of a simplex without two of them.
     static constexpr auto other_places = [] {
         std::array<std::array<std::array<std::uint8_t, D - 1>, D + 1>, D + 1> table{};
         for (std::size_t a = 0; a <= D; ++a) {
@@ -127,7 +127,7 @@ private:
         return table;
     }();
 
-    /// Facets at the vertex, by their other vertices. Says whether two may be the same; without a branch.
+    /// Facets at the vertex, by their other vertices: tells, branch-free, whether two may be the same.
     class QuickFacets {
     public:
         void clear() {
@@ -189,7 +189,7 @@ private:
             const std::size_t is_new = met_cells_.insert(across);
             reached += is_new;
             const auto [others, smallest] = other_vertices(corners, other_places[at][place]);
-            // Through a facet to a cell that was met one looks from both sides.
+            // A facet between two cells that were met is seen from both: count it once.
             facets.insert(others, (vertex < smallest) & ((is_new != 0) | (cell < across)));
         };
         const std::size_t at_first = place_of<D>(vertex, cells_[first]);

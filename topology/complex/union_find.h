@@ -19,7 +19,7 @@ public:
         std::iota(parent_.begin(), parent_.end(), Index{0});
     }
 
-    /// Halves the path: what is no root stays none, so that a store that comes late does no harm.
+    /// Path halving. What is not a root never becomes one again, so a late store does no harm.
     Index find(Index x) {
         for (Index parent = load(x); parent != x;) {
             const Index next = load(parent);

@@ -6,8 +6,8 @@
 #include "slabhull/geometry/trajectory.h"
 #include "slabhull/io/formats.h"
 #include "slabhull/io/space_time_files.h"
+#include "slabhull/slab/cap_reuse.h"
 #include "slabhull/slab/fill.h"
-#include "slabhull/slab/slab.h"
 #include "slabhull/topology/prism_split.h"
 
 #include <array>
@@ -29,7 +29,7 @@ using Numbers = std::vector<double>;
 struct BodyFile {
     std::filesystem::path file;
     std::string patch;            ///< of all facets, or
-    bool patches_of_file = false; ///< .. of those in no named part of the file, where its parts are patches
+    bool patches_of_file = false; ///< .. of those in no named part: named parts of the file are patches
 };
 
 /// An ellipsoid or ellipse meshed by Slabhull: those of the experiments.
@@ -93,7 +93,7 @@ struct MotionSpec {
     std::vector<MotionSpec> steps; ///< of a sequence, inner first
     DisplacementSpec displacements;
 
-    /// Said by a field of velocities, which motion_of() makes.
+    /// Whether a field of velocities describes it, which motion_of() makes.
     bool is_field() const { return kind != Kind::displacement_series && kind != Kind::stretch; }
 };
 
@@ -152,7 +152,7 @@ struct Case {
     CapReuse cap_reuse = CapReuse::none;
     double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
 
-    bool check_embedding = true;  ///< a hull that is not proven to cross itself nowhere is refused
+    bool check_embedding = true;  ///< hulls must be proven not to cross themselves
     std::optional<FillSpec> fill; ///< needs CapReuse::move, unless by TetGen
 
     std::filesystem::path directory = "out";
@@ -165,7 +165,7 @@ struct Case {
     }
     /// When slab `slab` begins; that of `slabs` is the end.
     double slab_begin(int slab) const;
-    /// Where the slab that begins at `time` ends, when nothing cuts it short.
+    /// The end of the slab that begins at `time`, unless tangling cuts it short.
     double slab_end(double time) const;
     bool layers_follow_motion() const { return !layers && !spacing; }
     /// The times of the levels of a slab, from its beginning to its end: these two alone where layers follow
@@ -184,7 +184,7 @@ Case read_case(const std::filesystem::path& path);
 /// Throws UsageError naming the experiments or the levels that there are.
 Case experiment_case(const std::string& name, int level);
 
-/// Where most simplices of a hull of an experiment in space are (the plane ones have one set of spacings).
+/// Where most simplices of an experiment's hull are, for D = 3 (for D = 2 there is one set of spacings).
 enum class Bulk {
     side, ///< as in the paper: many layers in split E, caps that are coarse inside
     caps  ///< the caps' meshing is nearly all the work: few layers in split C, caps that are fine inside

@@ -9,7 +9,7 @@
 
 namespace slabhull {
 
-/// What stands beside a march's state: the files that belong to it.
+/// The files that belong to the state of a march.
 struct CheckpointFiles {
     std::string cap;                 ///< name of the cap's file, beside the checkpoint (write_cap())
     std::uint32_t cap_checksum = 0;  ///< of that file
@@ -30,16 +30,9 @@ struct Checkpoint {
     CheckpointFiles files;
 };
 
-/// Reads a checkpoint and its cap: the very state that was written, bit for bit. Throws InputError naming the
+/// Reads a checkpoint and its cap: the state that was written, bit for bit. Throws InputError naming the
 /// file when one of them is damaged, is missing, or does not belong to the other.
 template<int D>
 Checkpoint<D> read_checkpoint(const std::filesystem::path& path);
-
-extern template void write_checkpoint<2>(const std::filesystem::path&, const MarchState<2>&,
-                                         const CheckpointFiles&);
-extern template void write_checkpoint<3>(const std::filesystem::path&, const MarchState<3>&,
-                                         const CheckpointFiles&);
-extern template Checkpoint<2> read_checkpoint<2>(const std::filesystem::path&);
-extern template Checkpoint<3> read_checkpoint<3>(const std::filesystem::path&);
 
 } // namespace slabhull

@@ -9,11 +9,11 @@
 
 namespace slabhull {
 
-/// What a march needs of a case, and how the files of displacements fitted the boundary.
+/// The settings of a march, and how the displacement files fitted the boundary.
 template<int D>
 struct CaseSettings {
     SlabSettings<D> slab;
-    std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move as such files say
+    std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move by displacement files
 };
 
 /// How a case wants its caps meshed.
@@ -30,8 +30,5 @@ template<int D>
 SlabSettings<D> settings_of(const Case& the_case, const Boundary<D>& boundary) {
     return case_settings<D>(the_case, boundary).slab;
 }
-
-extern template CaseSettings<2> case_settings<2>(const Case&, const Boundary<2>&);
-extern template CaseSettings<3> case_settings<3>(const Case&, const Boundary<3>&);
 
 } // namespace slabhull

@@ -32,14 +32,14 @@ using Receive = std::function<bool(void* bytes, std::size_t size)>;
 ChildEnd run_in_child(const std::function<void(const Send&)>& job,
                       const std::function<bool(const Receive&)>& receive);
 
-/// What a child has to say.
+/// What came back from a child.
 struct ChildAnswer {
     ChildEnd end;
     std::string text; ///< what the job returned, or why it failed; only if end.received
 };
 
-/// Runs a job whose result is a text in a child. When it throws, the text is the what() of that, and the exit
-/// code the one of the Error, that of Failure::geometry for other exceptions.
+/// Runs a job in a child and returns its text. If the job throws, the text is that of the exception, and
+/// the exit code that of the Error, or of Failure::geometry for other exceptions.
 /// Throws as run_in_child() does when the system gives no pipe or process.
 ChildAnswer ask_child(const std::function<std::string()>& job);
 

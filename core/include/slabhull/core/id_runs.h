@@ -69,7 +69,7 @@ public:
     std::int64_t back() const { return (*this)[size_ - 1]; }
     Iterator begin() const { return {this, 0}; }
     Iterator end() const { return {this, size_}; }
-    /// Writes those of [begin, end) to `out`.
+    /// Writes the ids at [begin, end) to `out`.
     void copy(std::size_t begin, std::size_t end, std::int64_t* out) const;
     /// Whether each id is larger than the one before.
     bool ascending() const;
@@ -86,7 +86,7 @@ private:
         }
     };
 
-    /// Of an id that is listed in runs.
+    /// The run that holds the id at a place.
     const Run& run_of(std::size_t at) const;
     bool extends_last_run(std::int64_t id);
     void give_up_runs();
@@ -96,8 +96,8 @@ private:
 
     std::vector<Run> runs_;
     std::vector<std::size_t>
-        run_at_block_;          ///< for each whole number of blocks, the run of the id that is there
-    Array<std::int64_t> plain_; ///< instead of runs, where there would be too many
+        run_at_block_; ///< for each block of ids, the run that holds its first id; a search starts there
+    Array<std::int64_t> plain_; ///< the ids themselves, where runs would be too many
     std::size_t size_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace slabhull {
 std::size_t available_memory(const std::filesystem::path& root = "/");
 
 /// Gives memory that was freed, but kept for later, back to the machine; to be called before much is taken
-/// for long. A few milliseconds. Nothing where the C library has no way.
+/// for long. A few milliseconds. Does nothing where the C library cannot.
 void give_back_freed_memory();
 
 } // namespace slabhull

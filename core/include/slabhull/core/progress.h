@@ -24,7 +24,7 @@ public:
 namespace detail {
 class ProgressWatch;
 using ProgressWatchPointer = std::shared_ptr<ProgressWatch>;
-/// What this thread's work is watched by; null for nothing.
+/// The watch over this thread's work; null: none.
 ProgressWatchPointer current_watch();
 
 /// While it lives, this thread's work is watched by `watch`.
@@ -41,8 +41,8 @@ private:
 } // namespace detail
 
 /// While it lives, what this thread does is watched by `progress`: parallel loops and child processes that it
-/// starts, too. A scope inside another asks both. An empty function: work that must come to its end, for
-/// which no one is asked.
+/// starts, too. A scope inside another asks both. An empty function marks work that must come to its end:
+/// then nobody is asked.
 class ProgressScope {
 public:
     explicit ProgressScope(Progress progress);

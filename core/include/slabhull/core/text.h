@@ -6,7 +6,7 @@
 
 namespace slabhull {
 
-/// Text from a file as messages can show it: without control characters, and long ones without their middle.
+/// Text from a file, fit for a message: no control characters, and long texts lose their middle.
 std::string readable(std::string_view text);
 
 } // namespace slabhull

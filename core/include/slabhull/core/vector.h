@@ -58,12 +58,17 @@ bool all_finite(const std::array<double, N>& a) {
 }
 
 template<std::size_t N>
-double distance(const std::array<double, N>& a, const std::array<double, N>& b) {
+double squared_distance(const std::array<double, N>& a, const std::array<double, N>& b) {
     double sum = 0;
     for (std::size_t k = 0; k < N; ++k) {
         sum += (a[k] - b[k]) * (a[k] - b[k]);
     }
-    return std::sqrt(sum);
+    return sum;
+}
+
+template<std::size_t N>
+double distance(const std::array<double, N>& a, const std::array<double, N>& b) {
+    return std::sqrt(squared_distance(a, b));
 }
 
 } // namespace slabhull

@@ -15,9 +15,9 @@ namespace slabhull {
 // right; they must count from 0, as settle_numbers() leaves them. Cost: near-linear, one further copy of what
 // changes.
 
-/// The part of a hull with that number in "region" or, in a soup with groups, their names: 0 initial, 1 side,
-/// 2 terminating; and the points that it uses. Throws UsageError when the soup is no hull with regions,
-/// InputError when nothing would be left.
+/// Leaves only one region of a hull, 0 initial, 1 side or 2 terminating, and the points that it uses. The
+/// regions are those of the array "region" or of the groups' names. Throws UsageError when the soup is not a
+/// hull with regions, InputError when nothing would be left.
 void select_region(io::Soup& soup, int region);
 
 /// The simplices, of whatever dimension, in the group or on the patch of that name, and the points that they
@@ -36,19 +36,19 @@ std::vector<SoupPart> parts_of(const io::Soup& soup);
 /// Leaves only that part and the points that it uses. Throws InputError when it has no cells.
 void keep_part(io::Soup& soup, const SoupPart& part);
 
-/// Facets of triangles or tetrahedra that only one of them has, oriented outward as docs/architecture.md
-/// tells (as the cells are oriented), and their points. Each has its cell's data, but for "neighbors", and
-/// the group of the same facet in the soup or, where the soup has no simplices of that dimension, its cell's.
+/// Leaves the boundary of triangles or tetrahedra: the facets of one cell only, oriented outward as in
+/// docs/architecture.md (as the cells are oriented), and their points. A facet gets the data of its cell,
+/// except "neighbors", and the group of the same facet in the soup; if the soup lists no facets, its cell's.
 /// Throws UsageError for other soups and InputError when there is no boundary or a cell repeats a vertex.
 void extract_boundary(io::Soup& soup);
 
 /// How much was welded.
 struct Welded {
-    std::size_t points = 0; ///< that are gone
-    std::size_t cells = 0;  ///< of all dimensions, that collapsed and are gone
+    std::size_t points = 0; ///< removed
+    std::size_t cells = 0;  ///< removed since they collapsed, of all dimensions
 };
-/// Each point that lies within `tolerance` (in space-time for a hull, at least 0) of an earlier one that
-/// stays is replaced by it; the nearest is not sought. Neighbors are found anew.
+/// Replaces a point by an earlier one that stays and lies within `tolerance` (at least 0; in space-time for a
+/// hull), not necessarily the nearest. Neighbors are found anew.
 Welded weld(io::Soup& soup, double tolerance);
 
 /// Renumbers points and cells along a space-filling curve, by their places in space (D = 2: in space-time).

@@ -44,7 +44,7 @@ struct SoupInfo {
     AngleRange angle{180, 0};
 };
 
-/// Takes the soup as its own, as it brings it to terms that all formats share.
+/// Takes the soup by value: it first brings the numbers to the form that all formats share.
 /// Throws InputError like settle_numbers(). Cost: linear.
 SoupInfo soup_info(io::Soup soup);
 

@@ -17,15 +17,15 @@ void settle_numbers(io::Soup& soup);
 /// The patches that the field data "patch_number" and "patch_name" list.
 PatchList listed_patches(const io::Soup& soup);
 
-/// "neighbors" and "cell" as element tags, for a format that has them so.
+/// Turns "neighbors" and "cell" into element tags, for formats that store these.
 void number_by_tags(io::Soup& soup);
 
-/// Makes "region" and "patch" and the patches' names of the groups of the cells, or only "patch" for a mesh
-/// that is no hull. Leaves a soup alone that has such arrays, or no groups.
+/// Adds the arrays "region" and "patch" and the patches' names from the groups of the cells; for a mesh that
+/// is not a hull only "patch". Does nothing if the soup has such arrays already, or no groups.
 void groups_to_arrays(io::Soup& soup);
 
-/// Makes groups of "region", "patch" and the patches' names. Leaves a soup alone that has groups already, or
-/// whose arrays groups cannot express: a group is a positive number, a hull's caps have no patches.
+/// Adds groups from "region", "patch" and the patches' names. Does nothing if the soup has groups already, or
+/// if groups cannot express the arrays: a group is a positive number, a hull's caps have no patches.
 void arrays_to_groups(io::Soup& soup);
 
 } // namespace slabhull

@@ -85,7 +85,4 @@ AffineMap<D> compose(const AffineMap<D>& outer, const AffineMap<D>& inner) {
 template<int D>
 AffineMap<D> inverse_of_similarity(const AffineMap<D>& map);
 
-extern template AffineMap<2> inverse_of_similarity<2>(const AffineMap<2>&);
-extern template AffineMap<3> inverse_of_similarity<3>(const AffineMap<3>&);
-
 } // namespace slabhull

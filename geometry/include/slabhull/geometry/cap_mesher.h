@@ -80,7 +80,4 @@ CapMesh<3> mesh_cap<3>(const Boundary<3>& boundary, const Surface<3>& surface, c
 template<int D>
 void verify_cap(const CapMesh<D>& mesh, const Surface<D>& surface);
 
-extern template void verify_cap<2>(const CapMesh<2>&, const Surface<2>&);
-extern template void verify_cap<3>(const CapMesh<3>&, const Surface<3>&);
-
 } // namespace slabhull

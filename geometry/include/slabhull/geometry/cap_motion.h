@@ -52,11 +52,4 @@ MovedCap<D> move_cap(std::span<const Point<D>> points, std::span<const Simplex<D
                      std::span<const Index> boundary, std::span<const Point<D>> targets,
                      const CapMotionOptions& options = {});
 
-extern template MovedCap<2> move_cap<2>(std::span<const Point<2>>, std::span<const Simplex<2>>,
-                                        std::span<const Index>, std::span<const Point<2>>,
-                                        const CapMotionOptions&);
-extern template MovedCap<3> move_cap<3>(std::span<const Point<3>>, std::span<const Simplex<3>>,
-                                        std::span<const Index>, std::span<const Point<3>>,
-                                        const CapMotionOptions&);
-
 } // namespace slabhull

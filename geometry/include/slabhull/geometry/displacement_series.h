@@ -36,7 +36,4 @@ enum class TimeInterpolation {
 template<int D>
 NodalMotionPointer<D> displacement_series(DisplacementRows<D> rows, TimeInterpolation interpolation);
 
-extern template NodalMotionPointer<2> displacement_series<2>(DisplacementRows<2>, TimeInterpolation);
-extern template NodalMotionPointer<3> displacement_series<3>(DisplacementRows<3>, TimeInterpolation);
-
 } // namespace slabhull

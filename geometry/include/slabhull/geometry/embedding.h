@@ -52,11 +52,4 @@ template<int D>
 void require_domain_boundary(const Boundary<D>& boundary, const Surface<D>& surface,
                              const FacetNaming& naming = {});
 
-extern template std::vector<Crossing<2>> find_crossings<2>(const Surface<2>&, std::size_t);
-extern template std::vector<Crossing<3>> find_crossings<3>(const Surface<3>&, std::size_t);
-extern template void require_domain_boundary<2>(const Surface<2>&, const FacetNaming&, bool);
-extern template void require_domain_boundary<3>(const Surface<3>&, const FacetNaming&, bool);
-extern template void require_domain_boundary<2>(const Boundary<2>&, const Surface<2>&, const FacetNaming&);
-extern template void require_domain_boundary<3>(const Boundary<3>&, const Surface<3>&, const FacetNaming&);
-
 } // namespace slabhull

@@ -16,7 +16,4 @@ namespace slabhull {
 template<int D>
 ProjectionSurfacePointer<D> facet_surface(const Surface<D>& facets, double tolerance = 0);
 
-extern template ProjectionSurfacePointer<2> facet_surface<2>(const Surface<2>&, double);
-extern template ProjectionSurfacePointer<3> facet_surface<3>(const Surface<3>&, double);
-
 } // namespace slabhull

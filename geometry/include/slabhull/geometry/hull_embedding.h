@@ -42,9 +42,4 @@ template<int D>
 HullEmbedding<D> examine_embedding(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
                                    const AdjacencyView<D>& adjacency, std::size_t limit = 100);
 
-extern template HullEmbedding<2> examine_embedding<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
-                                                      const AdjacencyView<2>&, std::size_t);
-extern template HullEmbedding<3> examine_embedding<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
-                                                      const AdjacencyView<3>&, std::size_t);
-
 } // namespace slabhull

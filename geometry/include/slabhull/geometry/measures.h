@@ -147,30 +147,8 @@ struct SolidMeasures {
 template<int D>
 SolidMeasures measure_solid(std::span<const Point<D>> points, std::span<const Simplex<D>> cells);
 
-extern template Point<2> simplex_normal<1>(const std::array<Point<2>, 2>&);
-extern template Point<3> simplex_normal<2>(const std::array<Point<3>, 3>&);
-extern template Point<4> simplex_normal<3>(const std::array<Point<4>, 4>&);
-extern template double signed_measure<1>(const std::array<Point<1>, 2>&);
-extern template double signed_measure<2>(const std::array<Point<2>, 3>&);
-extern template double signed_measure<3>(const std::array<Point<3>, 4>&);
-extern template double signed_measure<4>(const std::array<Point<4>, 5>&);
-extern template AngleRange dihedral_angles<2, 2>(const std::array<Point<2>, 3>&);
-extern template AngleRange dihedral_angles<2, 3>(const std::array<Point<3>, 3>&);
-extern template AngleRange dihedral_angles<3, 3>(const std::array<Point<3>, 4>&);
-extern template AngleRange dihedral_angles<3, 4>(const std::array<Point<4>, 4>&);
-extern template AngleHistogram angle_histogram<2, 3>(std::span<const Point<3>>, std::span<const Simplex<2>>);
-extern template AngleHistogram angle_histogram<3, 3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
-extern template AngleHistogram angle_histogram<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>);
-extern template double aspect_ratio<2, 3>(const std::array<Point<3>, 3>&);
-extern template double aspect_ratio<3, 4>(const std::array<Point<4>, 4>&);
-extern template AspectRatios aspect_ratios<2, 3>(std::span<const Point<3>>, std::span<const Simplex<2>>);
-extern template AspectRatios aspect_ratios<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>);
-extern template Measures<2> measure_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
-extern template Measures<3> measure_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 extern template class MeasureSums<2>;
 extern template class MeasureSums<3>;
-extern template SolidMeasures measure_solid<2>(std::span<const Point<2>>, std::span<const Simplex<2>>);
-extern template SolidMeasures measure_solid<3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
 
 /// Measure of a D-simplex in R^N; N is D or D + 1, for edges anything.
 template<int D, int N>

@@ -19,10 +19,4 @@ void order_along_curve(CapMesh<D>& mesh, std::size_t fixed_points);
 template<int D>
 Array<Index> curve_order(std::span<const Point<D>> points);
 
-extern template void order_along_curve<2>(CapMesh<2>&, std::size_t);
-extern template void order_along_curve<3>(CapMesh<3>&, std::size_t);
-
-extern template Array<Index> curve_order<2>(std::span<const Point<2>>);
-extern template Array<Index> curve_order<3>(std::span<const Point<3>>);
-
 } // namespace slabhull

@@ -94,23 +94,4 @@ MotionPointer<D> velocity_field(VelocityOfPoints<D> velocity);
 template<int D>
 MotionPointer<D> sequence(std::vector<MotionPointer<D>> steps, double start);
 
-extern template MotionPointer<2> standing<2>();
-extern template MotionPointer<3> standing<3>();
-extern template MotionPointer<2> rotation<2>(const Point<2>&, const Point<2>&, double);
-extern template MotionPointer<3> rotation<3>(const Point<3>&, const Point<3>&, double);
-extern template MotionPointer<2> translation<2>(const Point<2>&);
-extern template MotionPointer<3> translation<3>(const Point<3>&);
-extern template MotionPointer<2> expansion<2>(const Point<2>&, double, double);
-extern template MotionPointer<3> expansion<3>(const Point<3>&, double, double);
-extern template MotionPointer<2> formula_velocity<2>(const std::array<std::string, 2>&,
-                                                     const std::map<std::string, double>&);
-extern template MotionPointer<3> formula_velocity<3>(const std::array<std::string, 3>&,
-                                                     const std::map<std::string, double>&);
-extern template MotionPointer<2> velocity_field<2>(VelocityOfPoint<2>);
-extern template MotionPointer<3> velocity_field<3>(VelocityOfPoint<3>);
-extern template MotionPointer<2> velocity_field<2>(VelocityOfPoints<2>);
-extern template MotionPointer<3> velocity_field<3>(VelocityOfPoints<3>);
-extern template MotionPointer<2> sequence<2>(std::vector<MotionPointer<2>>, double);
-extern template MotionPointer<3> sequence<3>(std::vector<MotionPointer<3>>, double);
-
 } // namespace slabhull

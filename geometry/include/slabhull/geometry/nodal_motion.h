@@ -33,7 +33,4 @@ using NodalMotionPointer = std::shared_ptr<const NodalMotion<D>>;
 template<int D>
 NodalMotionPointer<D> nodal_motion(std::function<Point<D>(TrackId, double)> position);
 
-extern template NodalMotionPointer<2> nodal_motion<2>(std::function<Point<2>(TrackId, double)>);
-extern template NodalMotionPointer<3> nodal_motion<3>(std::function<Point<3>(TrackId, double)>);
-
 } // namespace slabhull

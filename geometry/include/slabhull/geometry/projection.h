@@ -87,19 +87,4 @@ template<int D>
 ProjectionReport project_onto_all(std::span<const PlacedSurface<D>> surfaces, std::span<Point<D>> x,
                                   double extent, std::span<double> moved = {});
 
-extern template ProjectionSurfacePointer<2> sphere_surface<2>(const Point<2>&, double);
-extern template ProjectionSurfacePointer<3> sphere_surface<3>(const Point<3>&, double);
-extern template ProjectionSurfacePointer<2> ellipsoid_surface<2>(const Point<2>&, const Point<2>&);
-extern template ProjectionSurfacePointer<3> ellipsoid_surface<3>(const Point<3>&, const Point<3>&);
-extern template ProjectionSurfacePointer<2> plane_surface<2>(const Point<2>&, const Point<2>&);
-extern template ProjectionSurfacePointer<3> plane_surface<3>(const Point<3>&, const Point<3>&);
-extern template ProjectionReport project<2>(const ProjectionSurface<2>&, const AffineMap<2>&,
-                                            std::span<Point<2>>, std::span<double>);
-extern template ProjectionReport project<3>(const ProjectionSurface<3>&, const AffineMap<3>&,
-                                            std::span<Point<3>>, std::span<double>);
-extern template ProjectionReport project_onto_all<2>(std::span<const PlacedSurface<2>>, std::span<Point<2>>,
-                                                     double, std::span<double>);
-extern template ProjectionReport project_onto_all<3>(std::span<const PlacedSurface<3>>, std::span<Point<3>>,
-                                                     double, std::span<double>);
-
 } // namespace slabhull

@@ -52,9 +52,4 @@ struct RigidTable {
 template<int D>
 MotionPointer<D> rigid_table(const RigidTable<D>& table, const Point<D>& centre);
 
-extern template MotionPointer<2> rotation<2>(const Point<2>&, const Point<2>&, const AngleTable&);
-extern template MotionPointer<3> rotation<3>(const Point<3>&, const Point<3>&, const AngleTable&);
-extern template MotionPointer<2> rigid_table<2>(const RigidTable<2>&, const Point<2>&);
-extern template MotionPointer<3> rigid_table<3>(const RigidTable<3>&, const Point<3>&);
-
 } // namespace slabhull

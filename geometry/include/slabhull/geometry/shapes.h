@@ -48,9 +48,5 @@ template<>
 int ellipsoid_divisions<2>(const Point<2>&, double);
 template<>
 int ellipsoid_divisions<3>(const Point<3>&, double);
-extern template Surface<2> box_surface<2>(const Point<2>&, const Point<2>&, double, const Patch&);
-extern template Surface<3> box_surface<3>(const Point<3>&, const Point<3>&, double, const Patch&);
-extern template Surface<2> join<2>(std::span<const Surface<2>>);
-extern template Surface<3> join<3>(std::span<const Surface<3>>);
 
 } // namespace slabhull

@@ -13,8 +13,4 @@ namespace slabhull {
 template<int N>
 int simplex_sign(const std::array<Point<N>, N + 1>& corners);
 
-extern template int simplex_sign<2>(const std::array<Point<2>, 3>&);
-extern template int simplex_sign<3>(const std::array<Point<3>, 4>&);
-extern template int simplex_sign<4>(const std::array<Point<4>, 5>&);
-
 } // namespace slabhull

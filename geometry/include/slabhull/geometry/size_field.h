@@ -71,7 +71,5 @@ std::vector<double> boundary_spacing(std::span<const Point<D>> points, std::span
 
 extern template class SizeField<2>;
 extern template class SizeField<3>;
-extern template std::vector<double> boundary_spacing<2>(std::span<const Point<2>>, std::span<const Facet<2>>);
-extern template std::vector<double> boundary_spacing<3>(std::span<const Point<3>>, std::span<const Facet<3>>);
 
 } // namespace slabhull

@@ -36,7 +36,4 @@ using StretchPointer = std::shared_ptr<const Stretch<D>>;
 template<int D>
 StretchPointer<D> harmonic_stretch(const Boundary<D>& boundary, const std::set<PatchNumber>& patches);
 
-extern template StretchPointer<2> harmonic_stretch<2>(const Boundary<2>&, const std::set<PatchNumber>&);
-extern template StretchPointer<3> harmonic_stretch<3>(const Boundary<3>&, const std::set<PatchNumber>&);
-
 } // namespace slabhull

@@ -32,9 +32,4 @@ template<int D>
 void advance(const Motion<D>& motion, std::span<Point<D>> x, double from, double to,
              const TrajectoryOptions& options);
 
-extern template void advance<2>(const Motion<2>&, std::span<Point<2>>, double, double,
-                                const TrajectoryOptions&);
-extern template void advance<3>(const Motion<3>&, std::span<Point<3>>, double, double,
-                                const TrajectoryOptions&);
-
 } // namespace slabhull

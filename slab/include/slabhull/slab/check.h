@@ -191,13 +191,4 @@ template<int D>
 MeshReport check_mesh(std::span<const Point<D>> points, std::span<const Simplex<D>> cells,
                       const CheckOptions& options = {});
 
-extern template HullColumns<2> columns_of<2>(const Hull<2>&);
-extern template HullColumns<3> columns_of<3>(const Hull<3>&);
-extern template HullReport check_hull<2>(const HullColumns<2>&, const CheckOptions&);
-extern template HullReport check_hull<3>(const HullColumns<3>&, const CheckOptions&);
-extern template MeshReport check_mesh<2>(std::span<const Point<2>>, std::span<const Simplex<2>>,
-                                         const CheckOptions&);
-extern template MeshReport check_mesh<3>(std::span<const Point<3>>, std::span<const Simplex<3>>,
-                                         const CheckOptions&);
-
 } // namespace slabhull

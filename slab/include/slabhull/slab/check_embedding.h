@@ -32,9 +32,4 @@ template<int D>
 std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, const CheckOptions& options,
                                                 HullReport& report, bool torn = true);
 
-extern template std::optional<EmbeddingSummary> check_embedding<2>(const HullColumns<2>&, const CheckOptions&,
-                                                                   HullReport&, bool);
-extern template std::optional<EmbeddingSummary> check_embedding<3>(const HullColumns<3>&, const CheckOptions&,
-                                                                   HullReport&, bool);
-
 } // namespace slabhull

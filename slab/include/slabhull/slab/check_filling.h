@@ -59,9 +59,4 @@ template<int D>
 FillingReport check_filling(const FillingColumns<D>& filling, const Hull<D>* hull = nullptr,
                             const CheckOptions& options = {});
 
-extern template FillingColumns<2> columns_of<2>(const Filling<2>&);
-extern template FillingColumns<3> columns_of<3>(const Filling<3>&);
-extern template FillingReport check_filling<2>(const FillingColumns<2>&, const Hull<2>*, const CheckOptions&);
-extern template FillingReport check_filling<3>(const FillingColumns<3>&, const Hull<3>*, const CheckOptions&);
-
 } // namespace slabhull

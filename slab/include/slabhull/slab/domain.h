@@ -4,8 +4,7 @@
 #include "slabhull/core/array.h"
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
-#include "slabhull/geometry/cap_mesher.h"
-#include "slabhull/slab/stitch.h"
+#include "slabhull/slab/id_counter.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <array>
@@ -15,6 +14,9 @@
 #include <vector>
 
 namespace slabhull {
+
+template<int D>
+struct CapMesh;
 
 /// A meshed domain as a solver or a mesh file has it: plain arrays, with names for messages.
 template<int D>
@@ -64,10 +66,5 @@ Domain<D> make_domain(DomainInput<D> input, IdCounter ids = {});
 /// The domain that was meshed as `cap` inside `boundary`: mesh_cap() gives the cap for it. Not checked again.
 template<int D>
 Domain<D> make_domain(CapMesh<D> cap, Surface<D> boundary, IdCounter ids = {});
-
-extern template Domain<2> make_domain<2>(DomainInput<2>, IdCounter);
-extern template Domain<3> make_domain<3>(DomainInput<3>, IdCounter);
-extern template Domain<2> make_domain<2>(CapMesh<2>, Surface<2>, IdCounter);
-extern template Domain<3> make_domain<3>(CapMesh<3>, Surface<3>, IdCounter);
 
 } // namespace slabhull

@@ -46,11 +46,4 @@ Filling<2> fill_unstructured(const Hull<2>& hull, StageClock& clock, const Unstr
 template<int D>
 Hull<D> hull_of_columns(const HullColumns<D>& columns);
 
-extern template Hull<2> hull_of_columns<2>(const HullColumns<2>&);
-extern template Hull<3> hull_of_columns<3>(const HullColumns<3>&);
-extern template Filling<2> fill_slab<2>(const Hull<2>&, StageClock&);
-extern template Filling<3> fill_slab<3>(const Hull<3>&, StageClock&);
-extern template Filling<2> fill_slab<2>(const Hull<2>&);
-extern template Filling<3> fill_slab<3>(const Hull<3>&);
-
 } // namespace slabhull

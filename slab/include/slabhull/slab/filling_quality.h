@@ -20,7 +20,4 @@ struct FillingQuality {
 template<int D>
 FillingQuality filling_quality(const Filling<D>& filling, std::size_t layers);
 
-extern template FillingQuality filling_quality<2>(const Filling<2>&, std::size_t);
-extern template FillingQuality filling_quality<3>(const Filling<3>&, std::size_t);
-
 } // namespace slabhull

@@ -83,17 +83,4 @@ MeasuredSweep<D> sweep_in_layers(const Boundary<D>& boundary, const SpatialMesh<
                                  std::array<double, 2> time, const TrajectoryOptions& trajectory,
                                  const LayerOptions& options);
 
-extern template MeasuredSweep<2> sweep_measured<2>(const Boundary<2>&, const SpatialMesh<2>&,
-                                                   const PatchMotions<2>&, double, std::vector<double>,
-                                                   const TrajectoryOptions&, const LayerOptions&);
-extern template MeasuredSweep<3> sweep_measured<3>(const Boundary<3>&, const SpatialMesh<3>&,
-                                                   const PatchMotions<3>&, double, std::vector<double>,
-                                                   const TrajectoryOptions&, const LayerOptions&);
-extern template MeasuredSweep<2> sweep_in_layers<2>(const Boundary<2>&, const SpatialMesh<2>&,
-                                                    const PatchMotions<2>&, double, std::array<double, 2>,
-                                                    const TrajectoryOptions&, const LayerOptions&);
-extern template MeasuredSweep<3> sweep_in_layers<3>(const Boundary<3>&, const SpatialMesh<3>&,
-                                                    const PatchMotions<3>&, double, std::array<double, 2>,
-                                                    const TrajectoryOptions&, const LayerOptions&);
-
 } // namespace slabhull

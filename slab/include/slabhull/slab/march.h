@@ -73,10 +73,6 @@ private:
     Progress progress_ = goes_on;
 };
 
-extern template MarchState<2> march_from<2>(Domain<2>, double);
-extern template MarchState<3> march_from<3>(Domain<3>, double);
-extern template MarchState<2> march_from<2>(SpatialMesh<2>, double, const IdCounter&);
-extern template MarchState<3> march_from<3>(SpatialMesh<3>, double, const IdCounter&);
 extern template class March<2>;
 extern template class March<3>;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/slab/cap_reuse.h"
 #include "slabhull/slab/layers.h"
 #include "slabhull/slab/stage_clock.h"
 #include "slabhull/slab/stitch.h"
@@ -13,10 +14,6 @@
 #include <vector>
 
 namespace slabhull {
-
-/// Where the terminating cap of a slab comes from: meshed anew, or the initial one with its vertices moved as
-/// long as its cells stay good (geometry/cap_motion.h).
-enum class CapReuse { none, move };
 
 /// What all slabs of a march share.
 template<int D>

@@ -91,15 +91,4 @@ struct SectionReport {
 template<int D>
 SectionReport measure_section(const Section<D>& section);
 
-extern template TimeSpan time_span<2>(const HullColumns<2>&);
-extern template TimeSpan time_span<3>(const HullColumns<3>&);
-extern template void slice_hull<2>(const HullColumns<2>&, std::span<const double>,
-                                   const std::function<void(Section<2>&&)>&, const SliceOptions&);
-extern template void slice_hull<3>(const HullColumns<3>&, std::span<const double>,
-                                   const std::function<void(Section<3>&&)>&, const SliceOptions&);
-extern template Section<2> slice_hull<2>(const HullColumns<2>&, double, const SliceOptions&);
-extern template Section<3> slice_hull<3>(const HullColumns<3>&, double, const SliceOptions&);
-extern template SectionReport measure_section<2>(const Section<2>&);
-extern template SectionReport measure_section<3>(const Section<3>&);
-
 } // namespace slabhull

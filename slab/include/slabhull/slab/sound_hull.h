@@ -23,7 +23,4 @@ struct SoundHull {
 template<int D>
 SoundHull require_sound_hull(const Hull<D>& hull, const std::string& name, bool embedding, StageClock& clock);
 
-extern template SoundHull require_sound_hull<2>(const Hull<2>&, const std::string&, bool, StageClock&);
-extern template SoundHull require_sound_hull<3>(const Hull<3>&, const std::string&, bool, StageClock&);
-
 } // namespace slabhull

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/core/progress.h"
 #include "slabhull/core/stopwatch.h"
 
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace slabhull {
+
+// Stages that several parts of the program name.
+inline constexpr const char* boundary_check_stage = "boundary check";
+inline constexpr const char* cap_meshing_stage = "cap meshing";
 
 /// Seconds by stage, in the order in which the stages first came.
 class StageClock {
@@ -23,6 +29,22 @@ public:
         }
         stages_.emplace_back(stage, passed);
     }
+
+    /// Runs a stage of the work: tells its name to those who watch (enter_stage()), then books its time.
+    /// Returns what `work` returns.
+    template<class Work>
+    auto run(const std::string& stage, const Work& work) {
+        enter_stage(stage);
+        if constexpr (std::is_void_v<decltype(work())>) {
+            work();
+            book(stage);
+        } else {
+            auto result = work();
+            book(stage);
+            return result;
+        }
+    }
+
     const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
     /// Of all stages, in seconds.
     double total() const {

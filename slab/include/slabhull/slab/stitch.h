@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/slab/id_counter.h"
 #include "slabhull/slab/sweep.h"
 #include "slabhull/topology/hull.h"
 #include "slabhull/topology/prism_split.h"
@@ -12,15 +12,8 @@
 
 namespace slabhull {
 
-/// The persistent id that is given out next; a march holds one.
-struct IdCounter {
-    PersistentId next = 0;
-    PersistentId take(std::size_t count) {
-        const PersistentId first = next;
-        next += static_cast<PersistentId>(count);
-        return first;
-    }
-};
+template<int D>
+struct CapMesh;
 
 /// A terminating cap as a spatial mesh: new ids for its points, the tracks and patches of the boundary.
 /// `mesh` has the sweep's vertices first, at their last positions.
@@ -36,6 +29,9 @@ struct SideOptions {
 /// How many vertices of the side are in neither cap: those on inner levels, and the centres of the split.
 template<int D>
 std::size_t side_vertex_count(const Sweep<D>& sweep, Split split);
+
+/// How many simplices the side has; in floating point, since they may be more than an integer holds.
+double side_simplex_count(std::size_t facets, std::size_t layers, Split split);
 
 /// A cap to be stitched into a hull. One that is given up is emptied, array by array, as soon as it is in the
 /// hull, so that it is not held twice.

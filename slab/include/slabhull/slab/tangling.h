@@ -25,9 +25,4 @@ template<int D>
 void require_embedded_levels(const Sweep<D>& sweep, const PatchMotions<D>& motions, double motion_start,
                              const TrajectoryOptions& options);
 
-extern template void require_embedded_levels<2>(const Sweep<2>&, const PatchMotions<2>&, double,
-                                                const TrajectoryOptions&);
-extern template void require_embedded_levels<3>(const Sweep<3>&, const PatchMotions<3>&, double,
-                                                const TrajectoryOptions&);
-
 } // namespace slabhull

@@ -55,7 +55,7 @@ struct StudyRow {
     /// Relative, with sign.
     double error(std::size_t measure) const { return measured[measure] / exact[measure] - 1; }
     double total_seconds() const;
-    /// The larger of both peaks: what the machine must have.
+    /// The larger of both peaks: the memory that the machine needs.
     std::size_t peak() const { return std::max(peak_bytes, mesher_peak_bytes); }
 };
 

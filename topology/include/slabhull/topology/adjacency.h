@@ -52,9 +52,4 @@ struct AdjacencyView {
 template<int D>
 Adjacency<D> build_adjacency(std::span<const Simplex<D>> cells, std::size_t vertex_count);
 
-extern template Adjacency<1> build_adjacency<1>(std::span<const Simplex<1>>, std::size_t);
-extern template Adjacency<2> build_adjacency<2>(std::span<const Simplex<2>>, std::size_t);
-extern template Adjacency<3> build_adjacency<3>(std::span<const Simplex<3>>, std::size_t);
-extern template Adjacency<4> build_adjacency<4>(std::span<const Simplex<4>>, std::size_t);
-
 } // namespace slabhull

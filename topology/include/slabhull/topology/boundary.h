@@ -4,8 +4,6 @@
 #include "slabhull/core/array.h"
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
-#include "slabhull/topology/halfedge_mesh.h"
-#include "slabhull/topology/simplicial_complex.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <array>
@@ -17,6 +15,10 @@
 #include <vector>
 
 namespace slabhull {
+
+class HalfedgeMesh;
+template<int D>
+class SimplicialComplex;
 
 /// A facet across a ridge, and its corner opposite to that ridge.
 struct TwinFacet {
@@ -36,7 +38,7 @@ struct TwinFacet {
 template<int D>
 class Boundary {
 public:
-    /// The connectivity in the terms of the dimension.
+    /// The connectivity in the terms of the dimension; who asks it includes its header.
     using Mesh = std::conditional_t<D == 3, HalfedgeMesh, SimplicialComplex<1>>;
 
     /// No boundary; only good to be assigned to.
@@ -142,9 +144,5 @@ Boundary<D> boundary_of(const SpatialMesh<D>& mesh);
 
 extern template class Boundary<2>;
 extern template class Boundary<3>;
-extern template Surface<2> boundary_surface<2>(const SpatialMesh<2>&, Array<Index>&);
-extern template Surface<3> boundary_surface<3>(const SpatialMesh<3>&, Array<Index>&);
-extern template Boundary<2> boundary_of<2>(const SpatialMesh<2>&);
-extern template Boundary<3> boundary_of<3>(const SpatialMesh<3>&);
 
 } // namespace slabhull

@@ -83,16 +83,4 @@ std::optional<ManifoldReport> confirm_manifold(std::span<const Simplex<D>> cells
 template<int D>
 std::size_t count_components(std::span<const Neighbors<D>> neighbors);
 
-extern template ManifoldReport examine_manifold<2>(std::span<const Simplex<2>>, std::size_t,
-                                                   const AdjacencyView<2>&, const ManifoldOptions&);
-extern template ManifoldReport examine_manifold<3>(std::span<const Simplex<3>>, std::size_t,
-                                                   const AdjacencyView<3>&, const ManifoldOptions&);
-extern template std::optional<ManifoldReport> confirm_manifold<2>(std::span<const Simplex<2>>, std::size_t,
-                                                                  std::span<const Neighbors<2>>);
-extern template std::optional<ManifoldReport> confirm_manifold<3>(std::span<const Simplex<3>>, std::size_t,
-                                                                  std::span<const Neighbors<3>>);
-extern template std::size_t count_components<1>(std::span<const Neighbors<1>>);
-extern template std::size_t count_components<2>(std::span<const Neighbors<2>>);
-extern template std::size_t count_components<3>(std::span<const Neighbors<3>>);
-
 } // namespace slabhull

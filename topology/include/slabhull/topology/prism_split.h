@@ -67,7 +67,7 @@ constexpr std::array<std::size_t, 2> quad_corners(std::size_t q) {
     return {D == 3 && q == 0 ? 1u : 0u, D == 2 || q == 2 ? 1u : 2u};
 }
 
-/// A split in words that the rest follows from: a cone from an apex over the prism's boundary.
+/// What defines a split: a cone from an apex over the boundary of the prism. The rest follows.
 struct SplitRecipe {
     enum class Apex : std::uint8_t {
         corner,       ///< the bottom corner at which all diagonals of its quadrilaterals start
@@ -112,7 +112,7 @@ struct PrismTemplate {
     /// the slot across[c][i] - outside.
     static constexpr std::uint8_t outside = 16;
     std::vector<Slots> across;
-    /// The cell with the facet of each slot; `no_cell` for pieces that there are not.
+    /// The cell with the facet of each slot; `no_cell` for pieces that do not exist.
     static constexpr std::uint8_t no_cell = 0xFF;
     std::array<std::uint8_t, slots> cell_at;
 };
@@ -140,10 +140,5 @@ constexpr std::uint8_t template_number(const Quads<D>& quads) {
 /// no cells.
 template<int D>
 std::span<const PrismTemplate<D>> templates_of(Split split);
-
-extern template PrismTemplate<2> cone_template<2>(int, const Quads<2>&);
-extern template PrismTemplate<3> cone_template<3>(int, const Quads<3>&);
-extern template std::span<const PrismTemplate<2>> templates_of<2>(Split);
-extern template std::span<const PrismTemplate<3>> templates_of<3>(Split);
 
 } // namespace slabhull

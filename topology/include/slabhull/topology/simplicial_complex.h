@@ -64,7 +64,7 @@ public:
     static constexpr std::size_t edges_per_cell = D * (D + 1) / 2;
 
     /// The complex of a soup of cells. Vertices that no cell uses are allowed.
-    /// Throws GeometryError, with the cells as entities, for whatever is no oriented manifold: cells that
+    /// Throws GeometryError, with the cells as entities, if this is not an oriented manifold: cells that
     /// name a vertex twice or one that does not exist, doubles, facets in three or more cells or in two that
     /// disagree in orientation, vertices whose link is not a sphere or a disc. Nothing is mended.
     /// Cost: near-linear, that of build_adjacency() and a walk around every vertex.
@@ -199,11 +199,5 @@ std::vector<std::vector<VertexId>> loops(const SimplicialComplex<1>& curve);
 
 /// The loops of boundary edges of a 2-complex, in its own vertices; the cells are to the right.
 std::vector<std::vector<VertexId>> boundary_loops(const SimplicialComplex<2>& surface);
-
-extern template PartOfComplex<1, CellId> part_of<1>(const SimplicialComplex<1>&, std::span<const CellId>);
-extern template PartOfComplex<2, CellId> part_of<2>(const SimplicialComplex<2>&, std::span<const CellId>);
-extern template PartOfComplex<3, CellId> part_of<3>(const SimplicialComplex<3>&, std::span<const CellId>);
-extern template PartOfComplex<1, HalfFacetId<2>> boundary_of<2>(const SimplicialComplex<2>&);
-extern template PartOfComplex<2, HalfFacetId<3>> boundary_of<3>(const SimplicialComplex<3>&);
 
 } // namespace slabhull

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cases/tables/point_finder.h"
+#include "geometry/basics/point_finder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace slabhull {
+
+/// Where the terminating cap of a slab comes from: meshed anew, or the initial one with its vertices moved as
+/// long as its cells stay good (geometry/cap_motion.h).
+enum class CapReuse { none, move };
+
+} // namespace slabhull

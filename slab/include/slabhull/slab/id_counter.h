@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/index.h"
+
+#include <cstddef>
+
+namespace slabhull {
+
+/// The persistent id that is given out next; a march holds one.
+struct IdCounter {
+    PersistentId next = 0;
+    PersistentId take(std::size_t count) {
+        const PersistentId first = next;
+        next += static_cast<PersistentId>(count);
+        return first;
+    }
+};
+
+} // namespace slabhull
