@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.h"
 
+#include "fillings.h"
 #include "mesh_formats.h"
 #include "slabhull/core/error.h"
 #include "slabhull/edit/soup_edit.h"
@@ -186,7 +187,22 @@ void write_parts(const ConvertCommand& command, const io::Soup& soup, Output& ou
     }
 }
 
+bool edits(const ConvertCommand& command) {
+    return command.patch || command.weld || command.scale || !command.region.empty() ||
+           !command.renumber.empty() || command.boundary || command.reverse || command.split;
+}
+
 int convert(const ConvertCommand& command) {
+    if (converts_filling(command.in, command.out, command.to)) {
+        if (edits(command)) {
+            throw UsageError{
+                fmt::format("{}: a filling in space-time is converted as it is, without a choice of parts or "
+                            "edits",
+                            command.in)};
+        }
+        convert_filling(command.in, command.from, command.out, command.to);
+        return 0;
+    }
     const io::Format& from = format_to_read(command.in, command.from);
     const io::Format& to = format_to_write(command.out, command.to);
     io::require_supported(to, command.writing, "--");

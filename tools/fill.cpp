@@ -24,6 +24,7 @@ struct FillCommand {
     std::string out;
     std::string to;
     std::string method = "march";
+    double time_scale = 0;
     FillingFileOptions file;
     bool json = false;
     int threads = 0;
@@ -66,12 +67,26 @@ void tell(const FillCommand& command, const Filling<D>& filling, std::size_t lay
 }
 
 template<int D>
+Filling<D> fill_hull(const FillCommand& command, const Hull<D>& hull, StageClock& clock) {
+    if (command.method == "march") {
+        return fill_slab(hull, clock);
+    }
+    if constexpr (D == 2) {
+        return fill_unstructured(hull, clock, {command.time_scale});
+    } else {
+        throw UsageError{fmt::format("{}: TetGen fills hulls in 2D+t only; those in 3D+t whose caps are one "
+                                     "mesh moved are filled by --method march",
+                                     command.hull)};
+    }
+}
+
+template<int D>
 int fill_file(const FillCommand& command, io::Soup& soup) {
     const std::string format = filling_format(command.out, command.to, D);
     StageClock clock;
     const Hull<D> hull = sound_hull<D>(command, soup);
     clock.book("reading and checking the hull");
-    const Filling<D> filling = fill_slab(hull, clock);
+    const Filling<D> filling = fill_hull(command, hull, clock);
     const FillingReport report = check_filling<D>(columns_of(filling), &hull);
     clock.book("check");
     if (!report.clean()) {
@@ -88,9 +103,8 @@ int fill_file(const FillCommand& command, io::Soup& soup) {
 
 int fill(const FillCommand& command) {
     set_thread_count(command.threads);
-    if (command.method != "march") {
-        throw UsageError{
-            fmt::format("--method: this version has only \"march\", not \"{}\"", command.method)};
+    if (command.method == "march" && command.time_scale > 0) {
+        throw UsageError{"--time-scale is for --method tetgen: an extrusion has its levels"};
     }
     io::Soup soup = read_named(command.hull, command.from);
     const MeshKind kind = kind_of(soup);
@@ -105,14 +119,20 @@ int fill(const FillCommand& command) {
 
 void add_fill(CLI::App& program, int& exit_code) {
     auto command = std::make_shared<FillCommand>();
-    CLI::App* app =
-        program.add_subcommand("fill", "Fill a hull whose caps are one mesh moved with space-time simplices");
-    app->add_option("HULL", command->hull, "The hull of a slab, built with cap.reuse = \"move\"")->required();
+    CLI::App* app = program.add_subcommand("fill", "Fill a hull with space-time simplices");
+    app->add_option("HULL", command->hull, "The hull of a slab; for march built with cap.reuse = \"move\"")
+        ->required();
     app->add_option("OUT", command->out, "The filling: .mfem, .getfem, .h5; in 2D+t also .vtu and .msh")
         ->required();
     app->add_option("--from", command->from, "Format of HULL, whatever its extension and content");
     app->add_option("--to", command->to, "Format of OUT, whatever its extension");
-    app->add_option("--method", command->method, "march: by extrusion of the caps' cells");
+    app->add_option("--method", command->method,
+                    "march: by extrusion of the caps' cells; tetgen (2D+t): whatever the caps, unstructured")
+        ->check(CLI::IsMember({"march", "tetgen"}));
+    app->add_option(
+           "--time-scale", command->time_scale,
+           "With tetgen: the length that a unit of time counts for; by default a layer lasts an edge")
+        ->check(CLI::PositiveNumber);
     app->add_option("--pentatope-code", command->file.pentatope_code,
                     "Of MFEM files in four dimensions: 6 (CFOSLS, older), 7 (2021) or 8 (later)")
         ->check(CLI::Range(6, 8));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.h"
 
+#include "fillings.h"
 #include "mesh_formats.h"
 #include "slabhull/edit/soup_info.h"
 
@@ -203,6 +204,9 @@ void print_json(const InfoCommand& command, const io::Format& format, const Soup
 }
 
 int info(const InfoCommand& command) {
+    if (command.from.empty() && tell_filling(command.file, command.json)) {
+        return 0;
+    }
     const io::Format& format = format_to_read(command.file, command.from);
     io::Soup soup = format.read(command.file);
     print_remarks(soup);

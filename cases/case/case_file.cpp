@@ -325,16 +325,31 @@ private:
         table.require_all_known();
     }
 
+    void read_unstructured(KeyTable& table, UnstructuredFill& fill) {
+        if (case_.dimension != 2 || !has_mesher(SolidMesher::tetgen)) {
+            table.fail("method", "\"march\": \"tetgen\" fills hulls in 2D+t, in builds that have TetGen");
+        }
+        if (table.has("time_scale")) {
+            fill.time_scale = table.positive("time_scale");
+        }
+    }
+
     void read_fill() {
         if (!root_.has("fill")) {
             return;
         }
         KeyTable table = root_.table("fill");
-        if (case_.cap_reuse != CapReuse::move) {
+        FillSpec fill;
+        if (table.has("method")) {
+            fill.method = table.choice<FillMethod>(
+                "method", {{"march", FillMethod::march}, {"tetgen", FillMethod::tetgen}});
+        }
+        if (fill.method == FillMethod::tetgen) {
+            read_unstructured(table, fill.unstructured);
+        } else if (case_.cap_reuse != CapReuse::move) {
             root_.fail("fill",
                        "[cap] reuse = \"move\" with it: only caps that are one mesh moved are filled");
         }
-        FillSpec fill;
         if (table.has("formats")) {
             fill.formats.clear();
             for (const std::string& format : table.texts("formats", -1)) {
@@ -344,9 +359,6 @@ private:
                     table.fail("formats", error.what());
                 }
             }
-        }
-        if (table.has("method")) {
-            table.choice<int>("method", {{"march", 0}});
         }
         if (table.has("pentatope_code")) {
             fill.pentatope_code = table.integer("pentatope_code", 6, 8);

@@ -5,6 +5,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/io/formats.h"
 #include "slabhull/slab/hull_columns.h"
+#include "slabhull/topology/adjacency.h"
 
 #include <fmt/format.h>
 
@@ -209,6 +210,92 @@ FillingArrays<D> filling_of_soup(io::SpaceTimeSoup& soup) {
     return arrays;
 }
 
+namespace {
+
+template<int D>
+void find_neighbors(Filling<D>& filling, std::vector<FacetDefect<D + 1>>& open) {
+    Adjacency<D + 1> adjacency = build_adjacency<D + 1>(filling.cells, filling.points.size());
+    for (const FacetDefect<D + 1>& defect : adjacency.defects) {
+        if (defect.kind != FacetDefect<D + 1>::Kind::open) {
+            throw GeometryError{
+                fmt::format("cells {} share a facet as they must not; `slabhull check` tells more",
+                            fmt::join(defect.cells, ", ")),
+                {{"cell", defect.cells.front(), {}}}};
+        }
+    }
+    filling.neighbors = std::move(adjacency.neighbors);
+    open = std::move(adjacency.defects);
+}
+
+/// Outward, by ascending vertices.
+template<int D>
+void find_facets(const std::vector<FacetDefect<D + 1>>& open, Filling<D>& filling) {
+    for (const FacetDefect<D + 1>& defect : open) {
+        const Simplex<D + 1>& cell = filling.cells[defect.cells.front()];
+        for (std::size_t i = 0; i <= D + 1; ++i) {
+            if (std::find(defect.facet.begin(), defect.facet.end(), cell[i]) == defect.facet.end()) {
+                filling.facets.push_back(outward_facet<D + 1>(cell, static_cast<int>(i)));
+            }
+        }
+    }
+}
+
+template<int D>
+FacetAttribute attribute_by_time(const Filling<D>& filling, const Simplex<D>& facet) {
+    for (const int end : {0, 1}) {
+        const double t = filling.time[static_cast<std::size_t>(end)];
+        if (std::all_of(facet.begin(), facet.end(), [&](Index v) { return filling.points[v][D] == t; })) {
+            return 1 + end;
+        }
+    }
+    return 3;
+}
+
+IdRuns ids_or_none(const Array<std::int64_t>& ids, std::size_t count) {
+    IdRuns runs;
+    for (const std::int64_t id : ids) {
+        runs.push_back(id);
+    }
+    if (ids.empty()) {
+        runs.append_run(-1, count, 0);
+    }
+    return runs;
+}
+
+} // namespace
+
+template<int D>
+Filling<D> filling_to_write(io::SpaceTimeSoup& soup) {
+    FillingArrays<D> arrays = filling_of_soup<D>(soup);
+    Filling<D> filling;
+    filling.points = std::move(arrays.points);
+    filling.cells = std::move(arrays.cells);
+    filling.facets = std::move(arrays.facets);
+    if (filling.points.empty() || filling.cells.empty()) {
+        throw InputError{fmt::format("{}: there are no cells", soup.path)};
+    }
+    const auto later = [](const auto& a, const auto& b) { return a[D] < b[D]; };
+    const auto [first, last] = std::minmax_element(filling.points.begin(), filling.points.end(), later);
+    filling.time = {(*first)[D], (*last)[D]};
+    std::vector<FacetDefect<D + 1>> open;
+    find_neighbors<D>(filling, open);
+    if (filling.facets.empty()) {
+        find_facets<D>(open, filling);
+    }
+    if (arrays.facet_attribute.size() == filling.facets.size()) {
+        filling.facet_attribute.assign(arrays.facet_attribute.begin(), arrays.facet_attribute.end());
+    } else {
+        for (const Simplex<D>& facet : filling.facets) {
+            filling.facet_attribute.push_back(attribute_by_time(filling, facet));
+        }
+    }
+    filling.vertex_ids = ids_or_none(soup.vertex_id, filling.points.size());
+    filling.track_ids = ids_or_none(soup.track_id, filling.points.size());
+    return filling;
+}
+
+template Filling<2> filling_to_write<2>(io::SpaceTimeSoup&);
+template Filling<3> filling_to_write<3>(io::SpaceTimeSoup&);
 template struct FillingArrays<2>;
 template struct FillingArrays<3>;
 template FillingArrays<2> filling_of_soup<2>(io::SpaceTimeSoup&);

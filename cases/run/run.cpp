@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/cases/run.h"
 
+#include "cases/run/earlier_run.h"
 #include "cases/run/journal.h"
 #include "cases/run/report_objects.h"
 #include "slabhull/cases/checkpoint.h"
@@ -115,10 +116,6 @@ struct SlabFiles {
     std::uint32_t cap_checksum = 0;
     std::future<void> written; ///< last, to be waited for before the files go
 };
-
-/// Names of the files beside the slabs.
-constexpr const char* checkpoint_name = "march.state";
-constexpr const char* journal_name = "slabs.jsonl";
 
 std::string slab_name(int slab, const std::string& format) {
     return fmt::format("slab_{:04}.{}", slab, format);
@@ -236,10 +233,9 @@ private:
             {cap_name(march_->state().slab), files.cap_checksum, journal_->size(), case_.checksum});
     }
 
-    /// The first slab is complete and takes the place of one that an earlier run may have left. That run's
-    /// checkpoint is removed before its slabs are: no run may resume from it.
+    /// The first slab is complete and takes the place of what an earlier run may have left.
     void replace_earlier_run() {
-        std::filesystem::remove(path_of(checkpoint_name));
+        remove_earlier_run(case_.directory);
         journal_.emplace(path_of(journal_name), 0);
         journal_->append(initial_.dump());
     }
@@ -314,14 +310,15 @@ private:
         if (!case_.fill) {
             return std::nullopt;
         }
-        if (!slab.cap_moved) {
+        const bool march = case_.fill->method == FillMethod::march;
+        if (march && !slab.cap_moved) {
             listener_.warning(fmt::format("slab {} is not filled: its terminating cap was meshed anew, since "
                                           "moving it left angles below cap.reuse_angle",
                                           slab.hull.slab));
             return std::nullopt;
         }
         const double before = clock.total();
-        Filled filled{fill_slab(slab.hull, clock), {}};
+        Filled filled{march ? fill_slab(slab.hull, clock) : fill_by_tetgen(slab.hull, clock), {}};
         const FillingReport checked = check_filling<D>(columns_of(filled.mesh), &slab.hull);
         clock.book("checking the filling");
         if (!checked.clean()) {
@@ -331,6 +328,14 @@ private:
         filled.report = as_json(checked, filled.mesh, filling_quality(filled.mesh, slab.hull.layers),
                                 clock.total() - before);
         return filled;
+    }
+
+    Filling<D> fill_by_tetgen(const Hull<D>& hull, StageClock& clock) const {
+        if constexpr (D == 2) {
+            return fill_unstructured(hull, clock, case_.fill->unstructured);
+        } else {
+            throw UsageError{"only hulls in 2D+t are filled by TetGen"};
+        }
     }
 
     void begin_writing(const Slab<D>& slab, const std::optional<Filled>& filled, SlabFiles& files) {
@@ -413,10 +418,10 @@ private:
                                                                   {"largest_distance", match.largest}};
         }
         head["peak_memory"] = peaks_as_json();
-        io::AtomicFile file{path_of("report.json")};
+        io::AtomicFile file{path_of(report_name)};
         write_report(head, file);
         file.commit();
-        result_.files.push_back(path_of("report.json"));
+        result_.files.push_back(path_of(report_name));
         write_series();
     }
 
@@ -438,9 +443,9 @@ private:
             }
         });
         if (shown != case_.formats.end()) {
-            add_series("slabs.pvd", slabs);
+            add_series(slabs_series_name, slabs);
         }
-        add_series("caps.pvd", caps);
+        add_series(caps_series_name, caps);
     }
 
     void add_series(const char* name, const std::vector<io::SeriesEntry>& entries) {

@@ -3,6 +3,7 @@
 
 #include "core/pieces.h"
 #include "slab/check/check_shape.h"
+#include "slab/check/filling_links.h"
 #include "slab/check/findings.h"
 #include "slabhull/geometry/simplex_sign.h"
 #include "slabhull/topology/adjacency.h"
@@ -75,6 +76,7 @@ public:
             check_coincident<D + 1>(filling_.points, findings_);
             check_cells();
             compare_volume();
+            check_around();
         } else {
             findings_.skip("shape", "there are coordinates that are not finite");
         }
@@ -244,6 +246,19 @@ private:
                             fmt::format("the cells' volume is {}, their boundary encloses {}", report_.volume,
                                         report_.enclosed));
         }
+    }
+
+    /// Vertices and the boundary, by their links.
+    void check_around() {
+        if (findings_.any({Defect::repeated_vertex, Defect::overfull_facet, Defect::disoriented_facet,
+                           Defect::inverted_cell, Defect::degenerate_cell, Defect::hull_facet_lost,
+                           Defect::hull_facet_added, Defect::hull_facet_reversed})) {
+            findings_.skip("links of vertices", "there are cells that are not positive or not paired, or the "
+                                                "boundary is another than it should be");
+            return;
+        }
+        check_boundary<D>(report_.vertices, open_, findings_);
+        check_links<D>(filling_.points, filling_.cells, {open_, in_cell_}, findings_);
     }
 
     /// The hull's vertices are the first, and attributes are those of its regions and patches.

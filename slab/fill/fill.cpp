@@ -2,13 +2,14 @@
 #include "slabhull/slab/fill.h"
 
 #include "slab/fill/cone_cells.h"
-#include "slab/fill/positive_cells.h"
+#include "slab/fill/describe_hull.h"
+#include "slab/fill/inner_places.h"
+#include "slab/fill/mend_cells.h"
 #include "slab/fill/side_walls.h"
 #include "slab/fill/slab_columns.h"
 #include "slab/fill/staircase.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
-#include "slabhull/geometry/cap_motion.h"
 
 #include <algorithm>
 #include <utility>
@@ -18,52 +19,6 @@ namespace slabhull {
 namespace {
 
 constexpr std::size_t prisms_per_fill = 1 << 12;
-
-template<int D>
-Point<D> in_space(const Point<D + 1>& point) {
-    Point<D> place;
-    std::copy_n(point.begin(), D, place.begin());
-    return place;
-}
-
-/// Puts the vertices inside the caps where move_cap() moves them on each inner level.
-template<int D>
-void place_inside(const Hull<D>& hull, const SlabColumns<D>& columns, Filling<D>& filling) {
-    if (columns.layers() < 2) {
-        return;
-    }
-    Array<Point<D>> start(hull.initial_points);
-    std::vector<Index> boundary; // vertices of the cap
-    std::vector<Index> column_of(hull.initial_points);
-    for (Index k = 0; k < columns.count; ++k) {
-        start[columns.at(0, k)] = in_space<D>(hull.points[columns.at(0, k)]);
-        column_of[columns.at(0, k)] = k;
-    }
-    for (Index v = 0; v < hull.initial_points; ++v) {
-        if (columns.on_boundary[column_of[v]] != 0) {
-            boundary.push_back(v);
-        }
-    }
-    Array<Simplex<D>> cells(hull.cells.begin(),
-                            hull.cells.begin() + static_cast<std::ptrdiff_t>(hull.initial_cells));
-    for (Simplex<D>& cell : cells) {
-        std::swap(cell[0], cell[1]); // the hull's look back in time
-    }
-    for (std::size_t level = 1; level < columns.layers(); ++level) {
-        std::vector<Point<D>> targets;
-        for (const Index v : boundary) {
-            targets.push_back(in_space<D>(filling.points[columns.at(level, column_of[v])]));
-        }
-        const MovedCap<D> moved = move_cap<D>(start, cells, boundary, targets);
-        for (Index k = 0; k < columns.count; ++k) {
-            if (columns.on_boundary[k] == 0) {
-                Point<D + 1>& point = filling.points[columns.at(level, k)];
-                std::copy_n(moved.points[columns.at(0, k)].begin(), D, point.begin());
-                point[D] = columns.times[level];
-            }
-        }
-    }
-}
 
 /// Makes the cells.
 template<int D>
@@ -182,22 +137,7 @@ private:
 /// What is known of the hull's cells and vertices, and of those inside.
 template<int D>
 void describe(const Hull<D>& hull, const SlabColumns<D>& columns, Filling<D>& filling) {
-    filling.facets = hull.cells;
-    filling.facet_attribute.resize(hull.cells.size());
-    for (std::size_t c = 0; c < hull.cells.size();) {
-        const std::size_t end = hull.prism_end(c);
-        const FacetAttribute attribute = attribute_of(hull, c);
-        for (; c < end; ++c) {
-            filling.facet_attribute[c] = attribute;
-        }
-    }
-    filling.patches = hull.patches;
-    filling.vertex_ids = hull.vertex_ids;
-    filling.track_ids = hull.track_ids;
-    filling.hull_points = hull.points.size();
-    filling.slab = hull.slab;
-    filling.time = hull.time;
-    filling.vertex_ids.append_run(-1, filling.points.size() - hull.points.size(), 0);
+    describe_hull(hull, filling);
     for (std::size_t level = 1; level < columns.layers(); ++level) {
         for (Index k = 0; k < columns.count; ++k) {
             if (columns.on_boundary[k] == 0) {
@@ -222,7 +162,12 @@ Filling<D> fill_slab(const Hull<D>& hull, StageClock& clock) {
     CellMaker<D>{columns, cones, filling}.run();
     describe(hull, columns, filling);
     clock.book("filling");
-    require_positive<D>(filling, columns, cones);
+    if (!not_positive(filling).empty()) {
+        mend_cells(columns, filling);
+        if (const std::vector<Index> bad = not_positive(filling); !bad.empty()) {
+            refuse_cells(bad, filling, columns, cones);
+        }
+    }
     clock.book("signs");
     return filling;
 }

@@ -41,12 +41,29 @@ CapMesh<D> renumbered(const SpatialMesh<D>& cap, std::span<const Point<D>> point
     return mesh;
 }
 
+/// From level to level, and more exactly: what turns far in small steps keeps better cells, and the smallest
+/// cells near a body go along with it.
+template<int D>
+MovedCap<D> moved_by_levels(const SpatialMesh<D>& initial, const Sweep<D>& sweep) {
+    CapMotionOptions options;
+    options.tolerance = careful_tolerance;
+    MovedCap<D> moved{initial.points, 0, true, 0};
+    for (std::size_t level = 1; level <= sweep.layers() && moved.sound; ++level) {
+        moved =
+            move_cap<D>(moved.points, initial.cells, sweep.boundary.mesh_vertices(), sweep.positions[level]);
+    }
+    return moved;
+}
+
 } // namespace
 
 template<int D>
 ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle) {
-    const MovedCap<D> moved =
+    MovedCap<D> moved =
         move_cap<D>(initial.points, initial.cells, sweep.boundary.mesh_vertices(), sweep.positions.back());
+    if (!(moved.sound && moved.smallest_angle >= angle)) {
+        moved = moved_by_levels<D>(initial, sweep);
+    }
     ReusedCap<D> reused;
     reused.smallest_angle = moved.sound ? moved.smallest_angle : 0;
     if (reused.smallest_angle >= angle && moved.sound) {

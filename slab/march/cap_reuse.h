@@ -15,7 +15,9 @@ struct ReusedCap {
     bool good() const { return !mesh.cells.empty(); }
 };
 
-/// `angle` is the least that its smallest angle must have. Cost: that of move_cap().
+/// `angle` is the least that its smallest angle must have. The cap is moved in one step or, where that leaves
+/// a smaller angle, more exactly and from level to level. Cost: that of move_cap(), some two or three times
+/// that per layer in the second case.
 template<int D>
 ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle);
 

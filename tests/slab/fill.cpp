@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/fill.h"
 
+#include "slab/fill/mend_cells.h"
 #include "slab/swept_grid.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/check_filling.h"
 
 #include <catch2/catch.hpp>
@@ -219,6 +221,78 @@ TEMPLATE_TEST_CASE_SIG("each defect of a filling is found", "[fill]", ((int D), 
     }
 }
 
+namespace {
+
+template<int D>
+FillingReport check_cells(const specimens::Grid<D + 1>& mesh) {
+    FillingColumns<D> columns;
+    columns.points = mesh.points;
+    columns.cells = mesh.cells;
+    return check_filling<D>(columns);
+}
+
+/// Cells around one vertex that go round it twice: over a ring of eight, whose second turn is farther out,
+/// between poles on the other axes. All are positive and paired, and the boundary is one sphere.
+template<int N>
+specimens::Grid<N> double_star() {
+    constexpr Index ring = 8;
+    specimens::Grid<N> star;
+    star.points.assign(1 + ring, Point<N>{});
+    for (Index k = 0; k < ring; ++k) {
+        const double radius = k < 4 ? 1 : 1.5;
+        star.points[1 + k][0] = radius * std::cos(1.5708 * k);
+        star.points[1 + k][1] = radius * std::sin(1.5708 * k);
+    }
+    for (std::size_t axis = 2; axis < N; ++axis) {
+        for (const double side : {1.0, -1.0}) {
+            star.points.push_back({});
+            star.points.back()[axis] = side;
+        }
+    }
+    for (Index k = 0; k < ring; ++k) {
+        for (Index sides = 0; sides < Index{1} << (N - 2); ++sides) {
+            Simplex<N> cell{0, 1 + k, 1 + (k + 1) % ring};
+            for (Index axis = 2; axis < N; ++axis) {
+                cell[axis + 1] = 1 + ring + 2 * (axis - 2) + (sides >> (axis - 2) & 1);
+            }
+            if (signed_measure<N>(corners_of<N, N>(cell, star.points)) < 0) {
+                std::swap(cell[0], cell[1]);
+            }
+            star.cells.push_back(cell);
+        }
+    }
+    return star;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE_SIG("vertices that cells do not lie around once are found", "[fill]", ((int D), D), 2, 3) {
+    constexpr int N = D + 1;
+    using Cube = std::array<Index, N>;
+    require_found(check_cells<D>(specimens::grid<N>(3, [](const Cube&) { return true; })), {});
+    SECTION("cells go round a vertex twice") {
+        const FillingReport report = check_cells<D>(double_star<N>());
+        require_found(report, {Defect::singular_vertex});
+        CHECK(report.count(Defect::singular_vertex) == 1 + 2 * (D - 1)); // the poles too
+        CHECK(report.findings.front().entities.front().number == 0);
+        CHECK_THAT(report.findings.front().text, Catch::Contains("2 times"));
+    }
+    SECTION("two boxes meet in a vertex") {
+        const auto corners = specimens::grid<N>(2, [](const Cube& at) {
+            return std::all_of(at.begin(), at.end(), [&](Index k) { return k == at[0]; });
+        });
+        const FillingReport report = check_cells<D>(corners);
+        require_found(report, {Defect::singular_boundary_vertex});
+        CHECK(report.count(Defect::singular_boundary_vertex) == 1);
+    }
+    SECTION("two boxes meet in what two facets of the boundary share") {
+        const auto boxes = specimens::grid<N>(2, [](const Cube& at) {
+            return at[0] == at[1] && std::all_of(at.begin() + 2, at.end(), [](Index k) { return k == 0; });
+        });
+        CHECK(check_cells<D>(boxes).count(Defect::singular_boundary_ridge) > 0);
+    }
+}
+
 TEMPLATE_TEST_CASE_SIG("a slab that turns too far in one layer is refused, naming cell and layer", "[fill]",
                        ((int D), D), 2, 3) {
     Hull<D> hull = hull_over<D>(specimens::full_box<D>(2), {splits<D>().front()}, 1, false);
@@ -235,7 +309,68 @@ TEMPLATE_TEST_CASE_SIG("a slab that turns too far in one layer is refused, namin
         REQUIRE(error.entities.size() >= 2);
         CHECK(error.entities[0].kind == "cell");
         CHECK(error.entities[1].kind == "layer");
+        CHECK_THAT(error.what(), Catch::Contains("vertices on the hull"));
     }
+}
+
+TEMPLATE_TEST_CASE_SIG("centres and inner vertices that turned cells inside out are moved back", "[fill]",
+                       ((int D), D), 2, 3) {
+    const Hull<D> hull = hull_over<D>(specimens::full_box<D>(3), {splits<D>().back()}, 2, true);
+    Filling<D> filling = fill_slab(hull);
+    Filling<D> places;
+    const SlabColumns<D> columns = slab_columns(hull, places);
+    SECTION("the apex of a cone") {
+        filling.points.back()[0] += 1.5;
+        filling.points.back()[D] += 0.1;
+    }
+    SECTION("the centre of a wall or cell, on the hull") {
+        filling.points[filling.points.size() - filling.steiner_points] = hull.points.front();
+    }
+    SECTION("a vertex on the level between the layers") {
+        filling.points[filling.hull_points][0] += 1.5;
+    }
+    const double level = filling.points[filling.hull_points][D];
+    REQUIRE_FALSE(not_positive(filling).empty());
+    mend_cells(columns, filling);
+    require_clean(filling, hull);
+    CHECK(filling.points[filling.hull_points][D] == level);
+}
+
+TEMPLATE_TEST_CASE_SIG("where no place helps, vertices of the hull stay and the cells are left", "[fill]",
+                       ((int D), D), 2, 3) {
+    Hull<D> hull = hull_over<D>(specimens::full_box<D>(3), {splits<D>().back()}, 1, true);
+    Filling<D> filling = fill_slab(hull);
+    Filling<D> places;
+    const SlabColumns<D> columns = slab_columns(hull, places);
+    filling.points.front()[0] += 2; // beyond the kernel of any star
+    const auto before = filling.points;
+    mend_cells(columns, filling);
+    CHECK_FALSE(not_positive(filling).empty());
+    CHECK(std::equal(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(filling.hull_points),
+                     filling.points.begin()));
+}
+
+TEST_CASE("TetGen fills a hull in 2D + t whatever its caps and its split", "[fill]") {
+    if (!has_mesher(SolidMesher::tetgen)) {
+        WARN("a build without TetGen");
+        return;
+    }
+    for (const Split split : splits<2>()) {
+        const Hull<2> hull = hull_over<2>(specimens::box_with_body<2>(), {split}, 3, true);
+        for (const double scale : {0.0, 2.0, 3.3}) {
+            INFO(split_name(split) << " with time scale " << scale);
+            StageClock clock;
+            const Filling<2> filling = fill_unstructured(hull, clock, {scale});
+            require_clean(filling, hull);
+            CHECK(filling.facets == hull.cells);
+            CHECK(filling.track_ids.size() == filling.points.size());
+            CHECK(filling.vertex_ids.size() == filling.points.size());
+        }
+    }
+    StageClock clock;
+    const Hull<2> hull = hull_over<2>(specimens::full_box<2>(2), {Split::centre}, 1, false);
+    CHECK_THROWS_AS(fill_unstructured(hull, clock, {-1.0}), UsageError);
+    CHECK_THROWS_AS(fill_unstructured(hull, clock, {std::nan("")}), UsageError);
 }
 
 TEMPLATE_TEST_CASE_SIG("a filling does not depend on the number of threads", "[fill]", ((int D), D), 2, 3) {

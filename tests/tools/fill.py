@@ -2,6 +2,7 @@
 """`slabhull fill`: every split filled and checked; VTK, Gmsh, meshio and GetFEM on what it writes; refusals."""
 import importlib.util
 import json
+import shutil
 import subprocess
 import sys
 import unittest
@@ -97,6 +98,81 @@ class Filling(ProgramTest):
             self.assertTrue(0 < smallest < one_per_cent < median < 1)
             self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
             self.assertTrue((out / f"{name}.vtu").exists())
+
+    def test_the_examples_with_large_turns_are_filled(self):
+        """With mended cells: the airfoil as it is shipped, the room with more layers, most of the falling brick."""
+        room = ("layers = 4", "layers = 16")
+        brick = ("slabs = 4\nlayers = 4", "slabs = 8\nlayers = 8\nend = 0.5")
+        moving = '\n[cap]\nreuse = "move"\nreuse_angle = 0.5\n[fill]\n'
+        for name, change, more, slabs, filled in (
+                ("airfoil", None, "", 2, {0, 1}), ("room", room, moving, 1, {0}), ("falling-body", brick, moving, 8, set(range(7)))):  # then it has turned too far
+            with self.subTest(name):
+                for file in (harness.ROOT / "examples").glob("*.*"):
+                    shutil.copy(file, self.dir)
+                text = (self.dir / f"{name}.toml").read_text()
+                if change:
+                    text = text.replace(*change).replace("\nend = 1.0\nslabs = 8", "\nslabs = 8")
+                out, report = self.build(self.case(text + more, f"{name}.toml"), out=f"out_{name}")
+                self.assertEqual(len(report["slabs"]), slabs)
+                self.assertEqual({slab["slab"] for slab in report["slabs"] if "fill" in slab}, filled)
+                for slab in report["slabs"]:
+                    if "fill" in slab:
+                        self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
+                        self.assertGreater(slab["fill"]["smallest_volume"], 0)
+
+    def test_tetgen_fills_hulls_whatever_their_caps(self):
+        still = CIRCLE.format("centre").replace('[cap]\nreuse = "move"\n', "")
+        out, report = self.build(self.case(still + '[fill]\nmethod = "tetgen"\nformats = ["vtu", "mfem"]\n'), out="filled")
+        for slab in report["slabs"]:
+            name = f"{slab['slab']:04}"
+            found = self.checked(out / f"fill_{name}.mfem", out / f"slab_{name}.vtu")
+            self.assertEqual(found["counts"]["cells"], slab["fill"]["cells"])
+            self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
+            few = self.fill(out / f"slab_{name}.vtu", self.dir / "few.mfem", "--method", "tetgen", "--time-scale", 0.5)
+            self.checked(self.dir / "few.mfem", out / f"slab_{name}.vtu")
+            self.assertNotEqual(few["counts"]["cells"], slab["fill"]["cells"])
+        self.refused(self.case(still + '[fill]\nmethod = "tetgen"\ntime_scale = 0\n'), 2, "time_scale")
+        self.refused(self.case(ELLIPSOID.format("A") + '[fill]\nmethod = "tetgen"\n'), 2, "2D+t")
+        for options in (("--time-scale", 2), ("--method", "tetgen", "--time-scale", -1)):
+            self.assertEqual(slabhull("fill", out / "slab_0000.vtu", self.dir / "f.vtu", *options).code, 2)
+        solid, _ = self.build(self.case(ELLIPSOID.format("A").replace("slabs = 2", "slabs = 1")), out="solid")
+        result = slabhull("fill", solid / "slab_0000.vtu", self.dir / "f.mfem", "--method", "tetgen")
+        self.assertEqual(result.code, 2)
+        self.assertIn("2D+t", result.err)
+
+    def test_fillings_are_converted_and_told_of(self):
+        for case, names in ((ELLIPSOID.format("C"), ("a.mfem", "b.h5", "c.mfem")),
+                            (CIRCLE.format("centre"), ("a.h5", "b.msh", "c.getfem", "d.vtu"))):
+            out, _ = self.build(self.case(case), out=f"out_{len(names)}")
+            hull = out / "slab_0000.vtu"
+            told = self.fill(hull, self.dir / names[0])
+            for before, after in zip(names, names[1:]):
+                if before.endswith(".getfem"):
+                    before = names[0]
+                result = slabhull("convert", self.dir / before, self.dir / after)
+                self.assertEqual(result.code, 0, result.err)
+                if not after.endswith(".getfem"):
+                    found = self.checked(self.dir / after, hull)
+                    self.assertEqual(found["counts"], told["counts"])
+            seen = json.loads(slabhull("info", self.dir / names[0], "--json").out)
+            self.assertEqual((seen["kind"], seen["counts"]), ("filling", told["counts"]))
+            self.assertEqual(seen["facets_by_attribute"], told["facets_by_attribute"])
+            self.assertIn("filling of a slab", slabhull("info", self.dir / names[0]).out)
+            self.assertEqual(slabhull("convert", self.dir / names[0], self.dir / "x.mfem", "--reverse").code, 2)
+            self.assertEqual(slabhull("convert", self.dir / names[0], self.dir / "x.stl").code, 2)
+        self.assertEqual((self.dir / "a.mfem").read_bytes(), (self.dir / "c.mfem").read_bytes())
+
+    def test_an_earlier_run_leaves_nothing_beside_a_new_one(self):
+        case = CIRCLE.format("centre").replace("slabs = 2", "slabs = 3") + '[fill]\nformats = ["mfem", "vtu"]\n'
+        out, _ = self.build(self.case(case))
+        foreign = ("slab_0001.txt", "fill_0007.mfem", "notes.vtu")  # none that the run made
+        for name in foreign:
+            (out / name).write_text("mine")
+        fewer = case.replace("slabs = 3", "slabs = 1").split("[fill]")[0] + '[output]\nformats = ["msh"]\n'
+        self.build(self.case(fewer))
+        self.assertEqual(sorted(p.name for p in out.iterdir()),
+                         sorted(("cap_0001.vtu", "caps.pvd", "march.state", "report.json", "slab_0000.msh", "slabs.jsonl",
+                                 *foreign)))
 
     def test_fill_wants_caps_that_move_and_formats_that_there_are(self):
         still = CIRCLE.format("centre").replace('[cap]\nreuse = "move"\n', "")

@@ -7,6 +7,7 @@
 #include "slabhull/io/formats.h"
 #include "slabhull/io/space_time_files.h"
 #include "slabhull/slab/cap_reuse.h"
+#include "slabhull/slab/fill.h"
 #include "slabhull/topology/prism_split.h"
 
 #include <array>
@@ -106,8 +107,13 @@ struct ProjectionSpec {
     std::filesystem::path file;
 };
 
+/// By extrusion of caps that are one mesh moved, or unstructured in space-time (D = 2).
+enum class FillMethod { march, tetgen };
+
 /// The table [fill]: slabs are filled with space-time simplices.
 struct FillSpec {
+    FillMethod method = FillMethod::march;
+    UnstructuredFill unstructured;
     std::vector<std::string> formats{"mfem"};
     int pentatope_code = io::usual_pentatope_code;
 };
@@ -147,7 +153,7 @@ struct Case {
     double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
 
     bool check_embedding = true;  ///< hulls must be proven not to cross themselves
-    std::optional<FillSpec> fill; ///< needs CapReuse::move
+    std::optional<FillSpec> fill; ///< needs CapReuse::move, unless by TetGen
 
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};

@@ -41,4 +41,12 @@ struct FillingArrays {
 template<int D>
 FillingArrays<D> filling_of_soup(io::SpaceTimeSoup& soup);
 
+/// A whole filling, to be written again. What the file has not is made anew: neighbours and the boundary's
+/// facets by adjacency, which are in order of their vertices then; attributes by time, 1 and 2 for facets at
+/// the first and last instant, 3 for others; ids and tracks are -1. Needs: positive simplices, paired where
+/// they meet. Throws GeometryError for facets in three simplices, or in two on the same side. Empties the
+/// soup.
+template<int D>
+Filling<D> filling_to_write(io::SpaceTimeSoup& soup);
+
 } // namespace slabhull

@@ -16,6 +16,9 @@ struct CapMotionOptions {
     int most_iterations = 500; ///< some 20 to 50 are usual
 };
 
+/// For what moves in small steps and must not tangle: the smallest cells beside a body follow it, too.
+inline constexpr double careful_tolerance = 1e-4;
+
 /// A cap whose vertices have moved; its cells are what they were.
 template<int D>
 struct MovedCap {

@@ -43,13 +43,16 @@ struct FillingReport : CheckResult {
 };
 
 /// Checks a filling from its cells and coordinates, and compares with its claims: every simplex positive by
-/// exact sign, facets in two agreeing simplices inside and in one on the boundary, no vertex unused, double
-/// or pinched, and the volume that the boundary encloses, within 1e-12. With a hull: the boundary facets are
-/// exactly the hull's cells, with the same orientation, and the hull's vertices are the first, bit for bit.
+/// exact sign, facets in two agreeing simplices inside and in one on the boundary, no vertex unused or
+/// double, simplices around each vertex once, a boundary that is a manifold, and the volume that the boundary
+/// encloses, within 1e-12. With a hull: the boundary facets are exactly the hull's cells, with the same
+/// orientation, and the hull's vertices are the first, bit for bit.
 ///
 /// Positive simplices paired across all facets inside, with a boundary that is embedded and exactly once
 /// there, cover the slab exactly once: a point inside is covered as often as the boundary winds around it. So
-/// the filling of a hull whose check is clean has no overlap and no gap, and vertices have balls around them.
+/// the filling of a hull whose check is clean and that does not cross itself has no overlap and no gap. The
+/// links of its vertices are spheres inside and balls on the hull; docs/filling.md says what is proven of
+/// them when nothing is known of the hull.
 ///
 /// Cost: near-linear; some 60 extra bytes per simplex. The same report for any number of threads.
 template<int D>

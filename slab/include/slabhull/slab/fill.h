@@ -26,6 +26,19 @@ Filling<D> fill_slab(const Hull<D>& hull, StageClock& clock);
 template<int D>
 Filling<D> fill_slab(const Hull<D>& hull);
 
+struct UnstructuredFill {
+    /// The length that a unit of time counts for, for spacings and shapes. 0: a layer's duration counts for
+    /// about the mean edge of the initial cap. Powers of two are free of rounding.
+    double time_scale = 0;
+};
+
+/// Fills a hull in 2D + t, whatever its caps, with tetrahedra by TetGen in a child process (mesh_cap<3>): the
+/// surface is kept, vertices inside are new and in no order of time. Verified as a cap is; signs are exact.
+/// Needs: a sound hull that does not cross itself. Throws GeometryError as mesh_cap() does, and where scaling
+/// time back turns a tetrahedron inside out by rounding; UsageError for a build without TetGen and for a
+/// time scale that is none. Cost: that of mesh_cap().
+Filling<2> fill_unstructured(const Hull<2>& hull, StageClock& clock, const UnstructuredFill& options = {});
+
 /// A hull from the columns of a file: what `build` writes, cells and points in the order of Hull<D>.
 /// Needs: columns whose check_hull() is clean. Throws GeometryError for tracks that are not given and for
 /// another order of the cells or points (as renumbering leaves it), naming the first cell or vertex out of

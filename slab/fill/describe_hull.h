@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/topology/filling.h"
+#include "slabhull/topology/hull.h"
+
+namespace slabhull {
+
+/// What a filling takes over from its hull: facets with attributes, ids and tracks of the hull's vertices.
+/// All points are there already.
+template<int D>
+void describe_hull(const Hull<D>& hull, Filling<D>& filling) {
+    filling.facets = hull.cells;
+    filling.facet_attribute.resize(hull.cells.size());
+    for (std::size_t c = 0; c < hull.cells.size();) {
+        const std::size_t end = hull.prism_end(c);
+        const FacetAttribute attribute = attribute_of(hull, c);
+        for (; c < end; ++c) {
+            filling.facet_attribute[c] = attribute;
+        }
+    }
+    filling.patches = hull.patches;
+    filling.vertex_ids = hull.vertex_ids;
+    filling.track_ids = hull.track_ids;
+    filling.hull_points = hull.points.size();
+    filling.slab = hull.slab;
+    filling.time = hull.time;
+    filling.vertex_ids.append_run(-1, filling.points.size() - hull.points.size(), 0);
+}
+
+} // namespace slabhull

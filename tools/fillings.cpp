@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fillings.h"
+
+#include "mesh_formats.h"
+#include "slabhull/cases/filling_files.h"
+#include "slabhull/cases/hull_files.h"
+#include "slabhull/cases/report.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace slabhull::tools {
+
+namespace {
+
+template<int D>
+void tell(const std::string& file, io::SpaceTimeSoup& soup, bool json) {
+    const bool with_ids = !soup.vertex_id.empty();
+    const FillingArrays<D> arrays = filling_of_soup<D>(soup);
+    const FillingReport seen = check_filling<D>(arrays.columns());
+    if (json) {
+        nlohmann::ordered_json out{{"file", file}, {"kind", "filling"}};
+        out.update(nlohmann::ordered_json::parse(report_as_json(seen)));
+        fmt::print("{}\n", out.dump(2));
+        return;
+    }
+    fmt::print("{}: filling of a slab in {}D+t, t = {:.10g} to {:.10g}\n", file, D, seen.time[0],
+               seen.time[1]);
+    fmt::print("  {} points{}, {} {}, volume {:.10g}\n", seen.vertices, with_ids ? " with ids" : "",
+               seen.cells, D == 2 ? "tetrahedra" : "pentatopes", seen.volume);
+    for (const auto& [attribute, facets] : seen.facets_by_attribute) {
+        fmt::print("  facets of attribute {}: {}\n", attribute, facets);
+    }
+    fmt::print("  {}\n", seen.clean() ? "sound" : "not sound: `slabhull check` tells why");
+}
+
+bool is_of_fillings_only(const std::string& out, const std::string& to) {
+    const std::string extension = std::filesystem::path{out}.extension().string();
+    const std::string name = !to.empty() ? to : extension.empty() ? "" : extension.substr(1);
+    return name == "getfem" || name == "h5";
+}
+
+/// Tetrahedra of points (x, y, t), as a filling's.
+io::SpaceTimeSoup read_tetrahedra(const std::string& in, const std::string& from) {
+    const io::Soup mesh = read_named(in, from);
+    const MeshArrays<3> arrays = mesh_of_soup<3>(mesh);
+    io::SpaceTimeSoup soup;
+    soup.path = in;
+    soup.dimension = 3;
+    for (const Point<3>& point : arrays.points) {
+        soup.points.insert(soup.points.end(), point.begin(), point.end());
+    }
+    for (const Simplex<3>& cell : arrays.cells) {
+        soup.cells.insert(soup.cells.end(), cell.begin(), cell.end());
+    }
+    return soup;
+}
+
+template<int D>
+void write(io::SpaceTimeSoup& soup, const std::string& out, const std::string& to) {
+    const std::string format = filling_format(out, to, D);
+    const Filling<D> filling = filling_to_write<D>(soup);
+    io::AtomicFiles files;
+    write_filling<D>(files, out, filling, format);
+    files.commit();
+}
+
+} // namespace
+
+bool tell_filling(const std::string& file, bool json) {
+    if (!io::is_space_time_file(file)) {
+        return false;
+    }
+    io::SpaceTimeSoup soup = io::read_space_time(file);
+    soup.dimension == 3 ? tell<2>(file, soup, json) : tell<3>(file, soup, json);
+    return true;
+}
+
+bool converts_filling(const std::string& in, const std::string& out, const std::string& to) {
+    return io::is_space_time_file(in) || is_of_fillings_only(out, to);
+}
+
+void convert_filling(const std::string& in, const std::string& from, const std::string& out,
+                     const std::string& to) {
+    io::SpaceTimeSoup soup = io::is_space_time_file(in) ? io::read_space_time(in) : read_tetrahedra(in, from);
+    soup.dimension == 3 ? write<2>(soup, out, to) : write<3>(soup, out, to);
+}
+
+} // namespace slabhull::tools
