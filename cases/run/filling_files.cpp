@@ -251,8 +251,8 @@ FacetAttribute attribute_by_time(const Filling<D>& filling, const Simplex<D>& fa
     return 3;
 }
 
-IdRuns ids_or_none(const Array<std::int64_t>& ids, std::size_t count) {
-    IdRuns runs;
+IntegerList ids_or_none(const Array<std::int64_t>& ids, std::size_t count) {
+    IntegerList runs;
     for (const std::int64_t id : ids) {
         runs.push_back(id);
     }
