@@ -341,7 +341,7 @@ TEST_CASE("cells in any order are proven as well, only less quickly", "[embeddin
 TEMPLATE_TEST_CASE_SIG("a run refuses 20 random bodies that cross between levels, and writes nothing",
                        "[embedding]", ((int D), D), 2, 3) {
     TwoBodies<D> scene{37};
-    for (int planted = 0, tried = 0; planted < 20; ++tried) {
+    for (int planted = 0, tried = 0; planted < rounds(20); ++tried) {
         REQUIRE(tried < 60);
         Case the_case = planted % 2 == 0 ? scene.changing_places() : scene.turning();
         const Pairs expected = pairs_without_proof<D>(the_case);
@@ -365,7 +365,7 @@ TEMPLATE_TEST_CASE_SIG("a run refuses 20 random bodies that cross between levels
 TEMPLATE_TEST_CASE_SIG("a run refuses none of 100 random slabs that are sound", "[embedding]", ((int D), D),
                        2, 3) {
     TwoBodies<D> scene{41};
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < rounds(100); ++k) {
         const scratch::Folder folder;
         Case the_case = scene.apart();
         the_case.directory = folder / "out";

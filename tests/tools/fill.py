@@ -38,7 +38,8 @@ class Filling(ProgramTest):
         return json.loads(result.out)
 
     def test_every_split_is_filled_with_the_volume_that_the_hull_encloses(self):
-        for case, splits in ((ELLIPSOID, "ABCDE"), (CIRCLE, ("diagonal", "centre"))):
+        in_space = "AC" if harness.SANITIZED else "ABCDE"
+        for case, splits in ((ELLIPSOID, in_space), (CIRCLE, ("diagonal", "centre"))):
             for split in splits:
                 with self.subTest(split=split):
                     out, _ = self.build(self.case(case.format(split)), out=f"out_{split}")
@@ -99,6 +100,7 @@ class Filling(ProgramTest):
             self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
             self.assertTrue((out / f"{name}.vtu").exists())
 
+    @unittest.skipIf(harness.SANITIZED, "too long under sanitizers")
     def test_the_examples_with_large_turns_are_filled(self):
         """With mended cells: the airfoil as it is shipped, the room with more layers, most of the falling brick."""
         room = ("layers = 4", "layers = 16")
