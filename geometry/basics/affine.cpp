@@ -32,7 +32,7 @@ double shear(const std::array<Point<D>, D>& rows, double squared_scale) {
 
 template<int D>
 AffineMap<D> inverse_of_similarity(const AffineMap<D>& map) {
-    // Far above the rounding of composed rotations, far below what would misplace a point visibly.
+    // Far above the rounding of composed rotations, far below a shear that visibly misplaces a point.
     constexpr double allowed_shear = 1e-9;
     const double squared_scale = map.scale() * map.scale();
     const bool regular = squared_scale >= std::numeric_limits<double>::min() && std::isfinite(squared_scale);

@@ -13,7 +13,7 @@ namespace {
 template<std::size_t M>
 using SquareMatrix = std::array<std::array<double, M>, M>;
 
-/// Solves matrix x = right by elimination with pivots; false where the matrix is singular.
+/// Solves matrix x = right by elimination with pivoting; false if the matrix is singular.
 template<std::size_t M>
 bool solve(SquareMatrix<M> matrix, std::array<double, M>& right) {
     for (std::size_t k = 0; k < M; ++k) {
@@ -43,12 +43,12 @@ bool solve(SquareMatrix<M> matrix, std::array<double, M>& right) {
     return true;
 }
 
-/// N + 1 functions that are equal where the smallest of them is largest: gradients of which a convex
-/// combination is zero, the weights of that combination, and the place.
+/// The active set: N + 1 functions that are equal at the current point. A convex combination of their
+/// gradients is zero; its weights are kept.
 template<int N>
 class Reference {
 public:
-    /// Functions that leave a region of some hundred units around the origin alone.
+    /// Starts from artificial functions that do not affect the minimum near the origin.
     Reference() {
         constexpr double reach = 100;
         constexpr double height = 1000;
@@ -56,7 +56,7 @@ public:
             functions_[i].value = height;
             functions_[i].gradient = {};
             for (std::size_t k = 0; k < N; ++k) {
-                const double slope = i == N ? -1 : i == k ? 1 : 0; // they add up to 0
+                const double slope = i == N ? -1 : i == k ? 1 : 0; // slopes sum to zero
                 functions_[i].gradient[k] = slope * height / (reach * N);
             }
         }
@@ -67,7 +67,7 @@ public:
     const Point<N>& point() const { return point_; }
     double minimum() const { return minimum_; }
 
-    /// Takes a function in that is below the minimum, and another out; false at the limits of precision.
+    /// Takes in a function that is below the minimum and drops another; false at the limits of precision.
     bool exchange(const AffineFunction<N>& next) {
         SquareMatrix<N + 1> matrix;
         std::array<double, N + 1> share;

@@ -22,11 +22,11 @@ struct AffineFunction {
     }
 };
 
-/// The point in which the smallest of some affine functions is largest: a linear program in N + 1 unknowns,
-/// solved by exchange (the simplex method for its dual). In rounded arithmetic: who needs a guarantee looks
-/// at the functions there. The point lies within a simplex whose inscribed ball is that of some hundred units
-/// about the origin, which holds it where the program has no bound: scale to units of what is sought.
-/// Cost: linear in the functions for each exchange, of which there are some N to 5 N.
+/// The point at which the smallest of some affine functions is largest: a linear program in N + 1 unknowns,
+/// solved by exchange (the simplex method for its dual). Arithmetic is rounded; if you need a guarantee,
+/// evaluate the functions at the result. The point lies in a simplex whose inscribed ball has a radius of
+/// some hundred units about the origin, so an unbounded program has a result, too: scale to the size of the
+/// solution. Cost: linear in the functions for each exchange, of which there are some N to 5 N.
 template<int N>
 Point<N> largest_minimum(std::span<const AffineFunction<N>> functions);
 

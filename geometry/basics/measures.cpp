@@ -29,14 +29,14 @@ Point<4> cross(const Point<4>& a, const Point<4>& b, const Point<4>& c) {
             -(xy * c[3] - xt * c[1] + yt * c[0]), xy * c[2] - xz * c[1] + yz * c[0]};
 }
 
-/// The angle of cos |cos|.
+/// The angle in degrees, from s = cos |cos|.
 double degrees(double s) {
     const double cosine = std::copysign(std::sqrt(std::min(1.0, std::abs(s))), s);
     return std::acos(cosine) * (180 / std::numbers::pi);
 }
 
-/// Gram matrix of the gradients of the barycentric coordinates, but for a positive factor: the adjugate of
-/// the Gram matrix of the edges from corner 0, and the row that makes all rows sum to zero.
+/// Gram matrix of the gradients of the barycentric coordinates, up to a positive factor: the adjugate of the
+/// Gram matrix of the edges from corner 0, extended by a row that makes all rows sum to zero.
 template<int D>
 using GradientGram = std::array<std::array<double, D + 1>, D + 1>;
 
@@ -67,8 +67,8 @@ GradientGram<D> gradient_gram(const std::array<std::array<double, N>, D + 1>& co
     return a;
 }
 
-/// Calls use() with cos |cos| of the angle between each two facets: the gradients are normal to the facets,
-/// pointing inwards. False, perhaps after some angles, when there is a facet of measure zero.
+/// Calls use() with cos |cos| of the dihedral angle between each two facets, from the gradients, which are
+/// the inward normals. False if a facet has measure zero, perhaps after some angles.
 template<int D, std::size_t N, class Use>
 bool for_each_cosine(const std::array<std::array<double, N>, D + 1>& corners, const Use& use) {
     const GradientGram<D> a = gradient_gram<D>(corners);
@@ -128,8 +128,8 @@ public:
 
 private:
     explicit AngleCounts(const AngleHistogram& counts) : counts_{counts} {}
-    /// cos |cos| of the angles between two bins, which spares the angles themselves. A trifle more: angles of
-    /// 60 and 90 degrees are frequent, and whatever rounding makes of them belongs to one bin.
+    /// cos |cos| at the limits between bins, so that angles need not be computed. Limits are raised slightly:
+    /// angles of 60 and 90 degrees are frequent, and rounding must not spread them over two bins.
     static std::array<double, angle_bins - 1> make_edges() {
         std::array<double, angle_bins - 1> edges;
         for (std::size_t k = 1; k < angle_bins; ++k) {
@@ -199,7 +199,7 @@ template<int D>
 Point<D + 1> MeasureSums<D>::add(const std::array<Point<D + 1>, D + 1>& corners, const Point<D + 1>& origin) {
     const Point<D + 1> normal = simplex_normal<D>(corners);
     measure_.add(norm(normal));
-    enclosed_.add(dot(minus(corners[0], origin), normal)); // x.N is the same all over the simplex
+    enclosed_.add(dot(minus(corners[0], origin), normal)); // x.N is constant on the simplex
     for (std::size_t k = 0; k <= D; ++k) {
         closure_[k].add(normal[k]);
     }
@@ -304,10 +304,11 @@ double aspect_ratio(const std::array<Point<N>, D + 1>& corners) {
             longest = std::max(longest, dot(edge, edge));
         }
     }
-    // Heights are 1 / |gradient| of the barycentric coordinates, and the radius 1 / (sum of the |gradients|).
+    // Heights are 1 / |gradient| of the barycentric coordinates, the inradius is 1 / (sum of the
+    // |gradients|).
     const GradientGram<D> gram = gradient_gram<D>(corners);
     const auto first = minus(corners[1], corners[0]);
-    double determinant = 0; // of the edges' Gram matrix, by its first row
+    double determinant = 0; // of the edges' Gram matrix, expanded by its first row
     for (std::size_t j = 1; j <= D; ++j) {
         determinant += dot(first, minus(corners[j], corners[0])) * gram[1][j];
     }
@@ -340,7 +341,7 @@ double enclosed_by(const Surface<D>& surface, std::span<const Index> facets) {
         for (std::size_t i = 0; i < D; ++i) {
             corners[i] = surface.points[surface.facets[f][i]];
         }
-        sum -= signed_measure<D>(corners); // a facet and a point on its inner side make a negative simplex
+        sum -= signed_measure<D>(corners); // a facet and a point on its inner side form a negative simplex
     }
     return sum;
 }

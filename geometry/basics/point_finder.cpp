@@ -8,7 +8,7 @@ namespace slabhull {
 
 namespace {
 
-/// Place along a unit vector with ratios of entries that are no simple fractions.
+/// Position along a unit vector whose entries are not in simple ratios.
 template<int D>
 double along_direction(const Point<D>& x) {
     constexpr std::array<double, 3> direction{0.5436182, 0.8113417, 0.2154843};
@@ -36,7 +36,7 @@ PointFinder<D>::PointFinder(std::span<const Point<D>> points) : points_{points},
 template<int D>
 std::vector<std::size_t> PointFinder<D>::within(const Point<D>& x, double radius) const {
     const double along = along_direction<D>(x);
-    const double reach = radius + 1e-12 * (std::abs(along) + radius); // rounding of the places
+    const double reach = radius + 1e-12 * (std::abs(along) + radius); // rounding of the positions
     const auto first = std::partition_point(places_.begin(), places_.end(),
                                             [&](const Place& place) { return place.along < along - reach; });
     std::vector<std::pair<double, std::size_t>> found;

@@ -11,16 +11,16 @@
 
 namespace slabhull {
 
-/// Finds those of many points that are close to a place: they are sorted along a direction that is oblique to
-/// anything people draw, so that few share a place on it.
+/// Finds the points within a small radius. They are sorted along a direction that is oblique to the usual
+/// planes and grids, so that few points share a position on it.
 template<int D>
 class PointFinder {
 public:
     /// The points must outlive the finder. Cost: that of sorting.
     explicit PointFinder(std::span<const Point<D>> points);
 
-    /// The points at most `radius` from x, the nearest first, then by number.
-    /// Cost: that of a search, and linear in the points within `radius` along the direction.
+    /// The points at most `radius` from x: by distance, then by number. Cost: that of a search, plus linear
+    /// in the points within `radius` along the direction.
     std::vector<std::size_t> within(const Point<D>& x, double radius) const;
 
     /// The nearest of all. Needs: a point. Cost: linear.

@@ -5,8 +5,8 @@
 
 #include <array>
 
-/// Geometric decisions without rounding: filtered floating point first, exact arithmetic when that cannot
-/// tell.
+/// Geometric predicates without rounding errors: filtered floating point first, exact arithmetic if that is
+/// not conclusive.
 /// Needs: finite coordinates. CGAL's kernel stays behind predicates.cpp.
 namespace slabhull::exact {
 
@@ -27,7 +27,7 @@ inline int orientation(const std::array<Point<3>, 4>& s) {
     return orientation(s[0], s[1], s[2], s[3]);
 }
 
-/// A facet without extent: a segment of one point, a triangle whose corners lie on a line.
+/// Whether a facet has no extent: a segment of one point, a triangle with collinear corners.
 bool degenerate(const Segment2& s);
 bool degenerate(const Triangle3& t);
 

@@ -26,8 +26,8 @@ using Lattice = std::array<std::size_t, D>;
 
 // --- Boxes ---------------------------------------------------------------------------------------
 
-/// Numbers the points of the lattice [0, n_1] x .. x [0, n_D] that lie on its boundary: slice by slice along
-/// the last direction, the first and last slice complete, the boundary only of those between.
+/// Numbers the boundary points of the lattice [0, n_1] x .. x [0, n_D], slice by slice along the last
+/// direction: the first and last slice are complete, the others have their boundary points only.
 template<int D>
 class BoundaryNumbering {
 public:
@@ -58,8 +58,8 @@ private:
     }
 
     Lattice<D> divisions_;
-    Lattice<D> rings_{};  ///< boundary points of the lattice of the first d + 1 directions
-    Lattice<D> slices_{}; ///< all its points
+    Lattice<D> rings_{};  ///< number of boundary points of the lattice of the first d + 1 directions
+    Lattice<D> slices_{}; ///< number of all its points
 };
 
 template<int D>
@@ -74,7 +74,7 @@ Lattice<D> box_divisions(const Point<D>& min, const Point<D>& max, double size) 
                 "a box from {} to {} is empty: its upper corner must be larger in every coordinate",
                 to_text(min), to_text(max))};
         }
-        // A length that is a multiple of the size but for rounding gets no extra division.
+        // A length that is a multiple of the size up to rounding gets no extra division.
         const double wanted = std::ceil((max[i] - min[i]) / size * (1 - 1e-12));
         if (!(wanted < no_index)) {
             throw LimitError{fmt::format("a box edge of length {} in parts of size {} has too many of them",
@@ -192,8 +192,8 @@ void set_patch(Surface<D>& surface, const Patch& patch) {
 }
 
 /// Arc lengths of an ellipse from parameter 0 to each multiple of 2 pi / samples, in units of its longer
-/// semi-axis. The midpoint rule: for the whole ellipse, a period of a smooth integrand, it converges faster
-/// than any power.
+/// semi-axis. By the midpoint rule, which converges faster than any power over a full period of a smooth
+/// integrand, that is, for the whole ellipse.
 std::vector<double> arc_lengths(const Point<2>& semi_axes, std::size_t samples) {
     const double longer = std::max(semi_axes[0], semi_axes[1]);
     const double step = 2 * std::numbers::pi / static_cast<double>(samples);
@@ -231,7 +231,7 @@ std::vector<double> equidistant_parameters(const Point<2>& semi_axes, std::size_
     return parameters;
 }
 
-/// The unit icosahedron, its faces outward.
+/// The unit icosahedron, faces oriented outward.
 struct Icosahedron {
     std::array<Point<3>, 12> corners;
     std::array<Facet<3>, 20> faces;
@@ -260,9 +260,9 @@ Icosahedron icosahedron() {
     return body;
 }
 
-/// Vertices of the icosahedron whose faces are cut into n^2 triangles: corners, then edges, then the insides
-/// of the faces, row by row. A point of a face has integer weights (i, j, k), i + j + k = n, of the face's
-/// corners.
+/// Vertices of the icosahedron whose faces are cut into n^2 triangles: corners first, then edges, then the
+/// interiors of the faces, row by row. A point of a face has integer weights (i, j, k), i + j + k = n, for
+/// the face's corners.
 class Geodesic {
 public:
     explicit Geodesic(int frequency) : n_{static_cast<std::size_t>(frequency)} {
@@ -277,7 +277,7 @@ public:
 
     std::size_t vertex_count() const { return 10 * n_ * n_ + 2; }
 
-    /// Calls visit(number, point) for every vertex, those on edges and corners once per face that has them.
+    /// Calls visit(number, point) for every vertex; those on edges and corners are visited once per face.
     template<class Visit>
     void for_each_vertex(const Visit& visit) const {
         for (std::size_t f = 0; f < base_.faces.size(); ++f) {
@@ -333,8 +333,8 @@ private:
         return static_cast<Index>(12 + edge * (n_ - 1) + (from_lower - 1));
     }
 
-    /// Weights sin(share * edge angle) instead of the shares: on edges, equal arcs; inside, triangles of
-    /// nearly equal size. (Plain shares leave triangles twice as large in the middle of the faces.)
+    /// Weights sin(share * edge angle) instead of the shares give equal arcs on edges and triangles of nearly
+    /// equal size inside. (Plain shares make triangles twice as large in the middle of the faces.)
     Point<3> point(std::size_t f, std::size_t j, std::size_t k) const {
         static const double edge_angle = std::atan(2.0);
         const std::array<std::size_t, 3> weights{n_ - j - k, j, k};
@@ -351,7 +351,7 @@ private:
     std::map<std::pair<Index, Index>, std::size_t> edges_;
 };
 
-/// Moves u on the unit sphere to the ellipsoid: A w / |w| with w = A^(-1/2) u.
+/// Maps u on the unit sphere to the ellipsoid: A w / |w| with w = A^(-1/2) u.
 Point<3> on_ellipsoid(const Point<3>& u, const Point<3>& semi_axes) {
     const double longest = *std::max_element(semi_axes.begin(), semi_axes.end());
     Point<3> w;
@@ -449,7 +449,7 @@ Surface<2> ellipsoid_body<2>(const Point<2>& centre, const Point<2>& semi_axes, 
     surface.facets.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         surface.facets[i] = {static_cast<Index>(i),
-                             static_cast<Index>((i + 1) % n)}; // the domain to the right
+                             static_cast<Index>((i + 1) % n)}; // the domain is on the right
     }
     set_patch<2>(surface, patch);
     return surface;

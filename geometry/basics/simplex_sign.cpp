@@ -14,7 +14,7 @@ namespace {
 template<class Number, std::size_t N>
 using Rows = std::array<std::array<Number, N>, N>;
 
-/// What the leading K rows have in the columns that are left, by expansion along row K - 1.
+/// Minor of the leading K rows in the given columns, by expansion along row K - 1.
 template<std::size_t K, class Number, std::size_t N, class Combine>
 Number expanded(const Rows<Number, N>& rows, const std::array<std::size_t, K>& columns,
                 const Combine& combine) {
@@ -51,7 +51,7 @@ Number determinant(const Rows<Number, N>& rows) {
                                   });
 }
 
-/// The determinant with every sign taken as plus: what rounding errors are measured by.
+/// The determinant with every sign taken as plus: the scale of its rounding errors.
 template<std::size_t N>
 double permanent(Rows<double, N> rows) {
     for (auto& row : rows) {
@@ -90,8 +90,8 @@ int simplex_sign(const std::array<Point<N>, N + 1>& corners) {
     const auto rows = edges<double, N>(corners);
     const double value = determinant(rows);
     const double error = roundings * unit_roundoff * permanent(rows);
-    // The first factors of a product that underflows are multiplied by coordinates that may be large, so
-    // tiny bounds are not believed; nor is what is no number.
+    // If a product underflows early, its later factors may be large, so tiny bounds are not trusted. Neither
+    // is NaN.
     if (error > underflow && std::abs(value) > error && std::isfinite(value)) {
         return sign_of(value);
     }

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <string>
 
-// What users give as vectors and numbers, in words and checked.
+// Vectors and numbers given by users: printed for messages, and checked.
 namespace slabhull::detail {
 
 /// "(1, 2.5, 0)"
@@ -40,7 +40,7 @@ inline void require_positive(double value, const char* what) {
     }
 }
 
-/// `direction` with length 1. Throws UsageError when it has none.
+/// `direction` scaled to length 1. Throws UsageError if it is zero.
 template<std::size_t N>
 std::array<double, N> unit_vector(const std::array<double, N>& direction, const char* what) {
     require_finite(direction, what);

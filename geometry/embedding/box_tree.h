@@ -15,7 +15,7 @@
 
 namespace slabhull {
 
-/// An axis-parallel closed box. The default one is empty: it meets nothing.
+/// An axis-parallel closed box. The default one is empty and meets nothing.
 template<int D>
 struct Box {
     Point<D> low = filled(std::numeric_limits<double>::infinity());
@@ -35,7 +35,7 @@ struct Box {
     }
     bool empty() const { return low[0] > high[0]; }
     bool meets(const Box& other) const {
-        bool apart = false; // no branch per axis: it could not be predicted
+        bool apart = false; // branch-free: branches per axis are unpredictable
         for (std::size_t k = 0; k < D; ++k) {
             apart |= low[k] > other.high[k];
             apart |= other.low[k] > high[k];
@@ -58,11 +58,11 @@ private:
     }
 };
 
-/// Boxes of facets in a tree of boxes around boxes, for finding which of them meet.
+/// A bounding box tree over facets: finds those whose boxes meet.
 ///
 /// The boxes are ordered by size class first and along a Morton curve second, then grouped: `block` of them
-/// to a leaf, `fan` nodes to a node. Without the size classes one large facet among small ones would blow up
-/// all nodes above it. Nothing depends on the number of threads.
+/// to a leaf, `fan` nodes to a parent. Without the size classes, one large facet among small ones would
+/// enlarge all nodes above it. The result does not depend on the number of threads.
 template<int D>
 class BoxTree {
 public:
@@ -70,10 +70,10 @@ public:
     static constexpr std::size_t fan_bits = 2;
     static constexpr std::size_t fan = std::size_t{1} << fan_bits;
 
-    /// `boxes` by item; empty ones are never found.
+    /// `boxes`: one per item; empty ones are never found.
     explicit BoxTree(const Array<Box<D>>& boxes)
         : BoxTree{boxes.size(), [&boxes](std::size_t item) { return boxes[item]; }} {}
-    /// The same of boxes that are not stored: box_of(item) is called three times for each, from several
+    /// The same for boxes that are not stored: box_of(item) is called three times per item, from several
     /// threads.
     template<class BoxOf>
     BoxTree(std::size_t count, const BoxOf& box_of) {
@@ -95,8 +95,8 @@ public:
         });
     }
 
-    /// Calls visit(a, b) once for each pair of items whose boxes meet, a in block `own`, b not in an earlier
-    /// block.
+    /// Calls visit(a, b) once for each pair of items whose boxes meet, with a in block `own` and b in the
+    /// same block or a later one.
     template<class Visit>
     void find_pairs(std::size_t own, Visit&& visit) const {
         const Box<D>& around = levels_.front()[own];
@@ -122,7 +122,7 @@ private:
         }
     }
 
-    /// Calls visit(leaf) for the leaves from `first` on, under a node, whose box meets `box`.
+    /// Calls visit(leaf) for the leaves under a node, from `first` on, whose box meets `box`.
     template<class Visit>
     void descend(std::size_t level, std::size_t node, std::size_t first, const Box<D>& box,
                  const Visit& visit) const {
@@ -151,7 +151,7 @@ private:
 
 namespace detail {
 
-/// Spreads the bits of `value` so that D - 1 zeros stand before each.
+/// Spreads the bits of `value`: D - 1 zeros stand before each.
 template<int D>
 std::uint64_t spread_bits(std::uint64_t value, int bits) {
     std::uint64_t spread = 0;
@@ -161,7 +161,7 @@ std::uint64_t spread_bits(std::uint64_t value, int bits) {
     return spread;
 }
 
-/// Place of a box in the tree's order: size class in the upper 8 bits, Morton code of its centre below.
+/// Sort key of a box: size class in the upper 8 bits, Morton code of its centre below.
 template<int D>
 std::uint64_t tree_key(const Box<D>& box, const Box<D>& all) {
     constexpr int bits = 54 / D;

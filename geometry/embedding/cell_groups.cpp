@@ -11,7 +11,7 @@ namespace slabhull {
 
 namespace {
 
-/// What the simplices of a prism are known by: their number and that of their vertices.
+/// A kind of prism, recognised by its numbers of simplices and vertices.
 struct PrismKind {
     std::size_t cells;
     std::size_t vertices;
@@ -24,13 +24,13 @@ constexpr auto prism_kinds<3> = std::array<PrismKind, 5>{{{14, 10}, {12, 9}, {10
 constexpr std::size_t grain = 16'800; ///< cells; whole prisms of each kind
 constexpr std::size_t group_grain = 4096;
 
-/// Distinct vertices, ascending, up to as many as a prism has.
+/// Distinct vertices, ascending, at most as many as a prism has.
 template<int D>
 class VertexSet {
 public:
     static constexpr std::size_t most = prism_kinds<D>.front().vertices;
 
-    /// False when there is no more room.
+    /// False if the set would overflow.
     bool add(const Simplex<D>& cell) {
         return std::all_of(cell.begin(), cell.end(), [&](Index v) { return add(v); });
     }
@@ -61,14 +61,14 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Cuts a range of cells into prisms, and single cells where it finds none.
+/// Cuts a range of cells into prisms, and into single cells where there are none.
 template<int D>
 class PrismFinder {
 public:
     PrismFinder(std::span<const Simplex<D>> cells, const std::vector<bool>& test)
         : cells_{cells}, test_{test} {}
 
-    /// The numbers of cells of the groups, one after the other; a zero for a cell that is not tested.
+    /// The number of cells of each group in order; zero for a cell that is not tested.
     std::vector<std::uint8_t> cut(std::size_t begin, std::size_t end) {
         std::vector<std::uint8_t> counts;
         for (std::size_t c = begin; c < end;) {
@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    /// Prisms of one kind follow each other.
+    /// Starts with the kind found last, since prisms of one kind follow each other.
     std::size_t prism_at(std::size_t c, std::size_t end) {
         for (std::size_t turn = 0; turn < prism_kinds<D>.size(); ++turn) {
             const std::size_t kind = (last_ + turn) % prism_kinds<D>.size();

@@ -14,25 +14,24 @@
 
 namespace slabhull {
 
-/// Cells of a hull in groups of consecutive ones: the simplices of a prism where they stand together, as they
-/// do in hulls of ours and in files of them, else single cells. Which cells make a group is a matter of speed
-/// only.
+/// Groups of consecutive cells of a hull: the simplices of a prism if they are consecutive, as in hulls made
+/// by this library and in files of them, else single cells. The grouping affects speed only.
 ///
-/// The first `tested` groups hold the cells that are to be tested. Behind them stand, one by one, the other
-/// cells that have a vertex in common with these.
+/// The first `tested` groups hold the cells to be tested. The other cells that share a vertex with these
+/// follow, one per group.
 template<int D>
 class CellGroups {
 public:
     static constexpr std::size_t most_cells = D == 2 ? 4 : 14;
 
-    /// `test` by cell.
+    /// `test`: one flag per cell.
     CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, const std::vector<bool>& test);
 
     std::size_t tested() const { return tested_; }
     std::size_t count() const { return first_cell_.size() - 1; }
 
     Index first_cell(std::size_t group) const { return first_cell_[group]; }
-    /// How many cells the groups before have.
+    /// Number of cells in the groups before this one.
     std::size_t cells_before(std::size_t group) const { return cells_before_[group]; }
     std::size_t cell_count(std::size_t group) const {
         return cells_before_[group + 1] - cells_before_[group];
@@ -41,7 +40,7 @@ public:
     std::span<const Index> vertices(std::size_t group) const {
         return {vertices_.data() + first_vertex_[group], first_vertex_[group + 1] - first_vertex_[group]};
     }
-    /// Those that have the vertex, ascending.
+    /// The groups at the vertex, ascending.
     std::span<const Index> groups_of(Index vertex) const {
         return {groups_.data() + first_group_[vertex], first_group_[vertex + 1] - first_group_[vertex]};
     }

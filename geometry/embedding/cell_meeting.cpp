@@ -12,9 +12,9 @@ namespace {
 
 using Rational = CGAL::Exact_rational;
 
-/// Finds weights w >= 0 with A w = (0, .., 0, 1) by the first phase of the simplex method, without rounding.
-/// Bland's rule (Math. Oper. Res. 2, 1977) keeps it from going round in circles, for nearly every right side
-/// is 0.
+/// Finds weights w >= 0 with A w = (0, .., 0, 1) by the first phase of the simplex method, in exact
+/// arithmetic. Nearly all right sides are 0, so Bland's rule (Math. Oper. Res. 2, 1977) is needed to prevent
+/// cycling.
 template<std::size_t Rows, std::size_t Columns>
 class FeasibilityProgram {
 public:
@@ -27,7 +27,7 @@ public:
                 table_[i][j] = a[j][i];
                 infeasibility_[j] += a[j][i];
             }
-            basis_[i] = Columns + i; // an artificial variable, of no column
+            basis_[i] = Columns + i; // an artificial variable, which has no column
         }
         table_[Rows - 1][Columns] = 1;
         infeasibility_[Columns] = 1;
@@ -56,7 +56,7 @@ public:
 private:
     using Row = std::array<Rational, Columns + 1>; ///< the last entry is the right side
 
-    /// The row that limits the entering variable first; there is one, as the infeasibility is bounded below.
+    /// The row that limits the entering variable first. It exists, as the infeasibility is bounded below.
     std::size_t leaving(std::size_t enter) const {
         std::size_t best = Rows;
         Rational least;
@@ -104,7 +104,7 @@ private:
     std::array<std::size_t, Rows> basis_;
 };
 
-/// A vertex in homogeneous coordinates, and whether it is off the shared face.
+/// A vertex in homogeneous coordinates, and whether it is outside the shared face.
 template<int N>
 std::array<Rational, N + 2> column_of(const Point<N>& p, int sign, bool off) {
     std::array<Rational, N + 2> column;

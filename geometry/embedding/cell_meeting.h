@@ -9,9 +9,9 @@
 
 namespace slabhull {
 
-/// A point that two non-degenerate, different (N-1)-simplices of R^N have in common off the face of the
-/// vertices they share, rounded; nothing when there is none, which is decided without rounding, by a
-/// feasibility program in rational numbers (CGAL). Cost: about a tenth of a millisecond.
+/// A common point, rounded, of two non-degenerate, different (N-1)-simplices of R^N outside the face of their
+/// shared vertices; nothing if there is none. Decided exactly, by a feasibility program in rational numbers
+/// (CGAL). Cost: about a tenth of a millisecond.
 template<int N>
 std::optional<Point<N>> common_point(const FacetPair<N>& pair);
 

@@ -38,8 +38,8 @@ bool degenerate(const std::array<Point<3>, 3>& triangle) {
     return exact::degenerate(triangle);
 }
 
-/// A tetrahedron in R^4 is flat when its images along all four axes are; the one along the axis nearest to
-/// its normal settles it nearly always.
+/// A tetrahedron in R^4 is degenerate if its projections along all four axes are. The projection along the
+/// axis nearest to its normal nearly always suffices.
 bool degenerate(const std::array<Point<4>, 4>& tetrahedron) {
     const Point<4> normal = simplex_normal<3>(tetrahedron);
     const auto steeper = [](double a, double b) { return std::abs(a) < std::abs(b); };
@@ -62,7 +62,7 @@ bool degenerate(const std::array<Point<4>, 4>& tetrahedron) {
 
 template<int D>
 Point<D + 1> scale_of_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
-    constexpr std::size_t samples = 10000; // of a mesh of any size
+    constexpr std::size_t samples = 10000; // however large the mesh
     const std::size_t stride = std::max<std::size_t>(1, cells.size() / samples);
     Point<D + 1> sum{};
     std::size_t count = 0;
@@ -81,7 +81,7 @@ Point<D + 1> scale_of_cells(std::span<const Point<D + 1>> points, std::span<cons
     return scale;
 }
 
-/// The shared vertices first, in the same order.
+/// Puts the shared vertices first, in the same order in both cells.
 template<int D>
 FacetPair<D + 1> CellPairs<D>::pair_of(Index first, Index second) const {
     Simplex<D> f = cells_[first];

@@ -26,17 +26,17 @@ Box<D + 1> box_of(const Simplex<D>& cell, std::span<const Point<D + 1>> points) 
     return box;
 }
 
-/// One over the mean extent of some cells along each axis, to the next power of two: what was a length and
-/// what was a time are then of like size. No result depends on it, only how soon a search finds one.
+/// The inverse of the cells' mean extent along each axis (sampled), rounded to a power of two: balances
+/// lengths and times. It affects the speed of a search, not its result.
 template<int D>
 Point<D + 1> scale_of_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells);
 
-/// The cells that were found to cross, and what it took.
+/// The crossing cells found, and statistics.
 template<int D>
 struct PairTally {
     std::vector<Crossing<D + 1>> crossings;
     std::size_t tested = 0;
-    std::size_t exact = 0; ///< left to rational arithmetic
+    std::size_t exact = 0; ///< decided by rational arithmetic
 };
 
 /// Decides pairs of non-degenerate cells one by one, exactly.
@@ -47,8 +47,8 @@ public:
               const Point<D + 1>& scale)
         : points_{points}, cells_{cells}, scale_{scale} {}
 
-    /// Adds the pair to `tally`, and to its crossings when the two have a point in common off the face of the
-    /// vertices that they share.
+    /// Counts the pair in `tally`, and adds it to the crossings if the two cells have a common point outside
+    /// the face of their shared vertices.
     void decide(Index first, Index second, PairTally<D>& tally) const;
 
 private:

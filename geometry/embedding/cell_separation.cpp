@@ -16,11 +16,11 @@ namespace slabhull {
 
 namespace {
 
-/// More than any operation here loses when its result is too small for a normalised number.
+/// Above the error of any operation here whose result underflows.
 constexpr double underflow = std::numeric_limits<double>::min();
 
-/// A value that was computed and how far it can be from the true one. The bounds are rounded themselves, by
-/// less than a part in 10^13 over all of a computation; who relies on them adds one per cent.
+/// A computed value and a bound on its error. The bounds are rounded themselves, by less than a part in 10^13
+/// over a whole computation: add one per cent before relying on them.
 struct Bounded {
     double value = 0;
     double error = 0;
@@ -41,7 +41,7 @@ Bounded operator*(const Bounded& a, const Bounded& b) {
                        unit_roundoff * std::abs(value) + underflow};
 }
 
-/// An error that is infinite or no number when b may be zero, and so proves nothing.
+/// If b may be zero, the error is infinite or NaN, which proves nothing.
 Bounded operator/(const Bounded& a, const Bounded& b) {
     const double value = a.value / b.value;
     const double least = std::max(0.0, std::abs(b.value) - 1.01 * b.error);
@@ -49,10 +49,10 @@ Bounded operator/(const Bounded& a, const Bounded& b) {
             (a.error + std::abs(value) * b.error) / least + unit_roundoff * std::abs(value) + underflow};
 }
 
-/// Two simplices of R^N that share K vertices, seen from what they share: a linear map takes the span of the
-/// shared vertices to 0, and the hyperplanes that contain these become those through the origin of what is
-/// left. The columns are the images of the other vertices of the first simplex, and of the second with the
-/// opposite sign, so a functional that is positive on every column is a separating hyperplane.
+/// Two simplices of R^N that share K vertices, modulo the span of these: a linear map takes the span to 0 and
+/// hyperplanes that contain the shared vertices to hyperplanes through the origin of the quotient. The
+/// columns are the images of the other vertices, with opposite sign for the second simplex, so a functional
+/// that is positive on every column is a separating hyperplane.
 template<int N, std::size_t K>
 class Columns {
 public:
@@ -95,7 +95,7 @@ public:
         return unit;
     }
 
-    /// Whether the functional is positive on every column, whatever was rounded.
+    /// Whether the functional is positive on every column, rounding errors included.
     bool proven_positive(const Functional& h) const {
         for (std::size_t i = 0; i < count; ++i) {
             double value = 0;
@@ -106,7 +106,7 @@ public:
                 rounding +=
                     width * unit_roundoff * std::abs(term) + std::abs(h[k]) * entry_[i][k].error + underflow;
             }
-            if (!(value > 1.01 * rounding)) { // not a number proves nothing either
+            if (!(value > 1.01 * rounding)) { // NaN proves nothing either
                 return false;
             }
         }
@@ -146,8 +146,8 @@ private:
         std::copy(v.begin(), v.end(), entry_[i].begin());
     }
 
-    /// The constant term of an affine functional, as large as the pair so that no coordinate outweighs the
-    /// others.
+    /// Adds the constant term of an affine functional, scaled to the size of the pair so that no coordinate
+    /// dominates.
     void add_constants() {
         double largest = 0;
         for (const auto& column : entry_) {
@@ -160,7 +160,7 @@ private:
         }
     }
 
-    /// The first shared vertex is the origin; each of the others takes one coordinate away.
+    /// The first shared vertex is the origin; each other one eliminates a coordinate.
     void eliminate_shared(const FacetPair<N>& pair, const Point<N>& scale) {
         for (std::size_t s = 1; s < K; ++s) {
             std::array<Bounded, N> shared = shifted(pair.f[s], pair.f[0], scale);
@@ -202,7 +202,7 @@ private:
     std::array<Step, N> steps_; ///< K - 1 of them
 };
 
-/// Solves rows x = (1, .., 1) by elimination; what comes of singular rows is of no use, but does no harm.
+/// Solves rows x = (1, .., 1) by elimination. For singular rows the result is meaningless, but harmless.
 template<std::size_t W>
 std::array<double, W> solve_for_ones(std::array<std::array<double, W + 1>, W> rows) {
     for (std::size_t j = 0; j < W; ++j) {
@@ -225,9 +225,10 @@ std::array<double, W> solve_for_ones(std::array<std::array<double, W + 1>, W> ro
     return x;
 }
 
-/// The functionals that are 1 or more on every column are a polyhedron; when the columns span the space, it
-/// has a vertex, in which as many columns as there are dimensions are 1. There are 56 of such at most.
-/// The relaxation method needs as many steps as a gap is thin, this does not.
+/// The functionals that are 1 or more on every column form a polyhedron. If the columns span the space, it
+/// has a vertex, where as many columns as there are dimensions have the value 1. There are at most 56
+/// candidates, so thin gaps cost no more than wide ones; the relaxation method takes more steps the thinner
+/// the gap.
 template<class C>
 bool separable_at_vertex(const C& columns, const std::array<typename C::Functional, C::count>& unit) {
     for (unsigned chosen = 0; chosen < 1u << C::count; ++chosen) {
@@ -250,7 +251,7 @@ bool separable_at_vertex(const C& columns, const std::array<typename C::Function
 }
 
 /// Looks for a functional that is positive on every column by the relaxation method (Motzkin and Schoenberg,
-/// Canad. J. Math. 6, 1954): reflect it at the column that it is most negative on, until there is none.
+/// Canad. J. Math. 6, 1954): reflect it at the column where it is most negative, until none is.
 template<int N, std::size_t K>
 bool separable(const FacetPair<N>& pair, const Point<N>& scale) {
     using C = Columns<N, K>;

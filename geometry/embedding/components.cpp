@@ -11,8 +11,8 @@ int sign(double x) {
     return (x > 0) - (x < 0);
 }
 
-/// Side of p on the line from a to b, both seen along the first axis. A tie goes as if p were moved by (e,
-/// e^2).
+/// Side of p from the line through a and b, projected along the first axis. Ties are broken as if p were
+/// moved by (e, e^2).
 int side_of(const Point<3>& a, const Point<3>& b, const Point<3>& p) {
     const int side = exact::orientation({a[1], a[2]}, {b[1], b[2]}, {p[1], p[2]});
     if (side != 0) {

@@ -14,22 +14,22 @@
 
 namespace slabhull {
 
-/// Signed measure that each component of a boundary encloses when it lies as in `surface`: positive for an
+/// Signed measure that each component of a boundary encloses with the positions of `surface`: positive for an
 /// outer boundary, negative around a body.
 template<int D>
 std::vector<double> enclosed_by_components(const Boundary<D>& boundary, const Surface<D>& surface);
 
 namespace detail {
 
-/// The line through p along the first axis, moved aside by an infinitely small step so that it meets no edge:
-/// +1 or -1 for a facet it goes through, the sign being that of the facet's normal on that axis, else 0.
+/// Crossing of a facet by the line through p along the first axis: the sign of the facet's normal on that
+/// axis, or 0 if they do not meet. The line is perturbed symbolically, so that it meets no edge.
 int line_passes(const FacetCorners<2>& facet, const Point<2>& p);
 int line_passes(const FacetCorners<3>& facet, const Point<3>& p);
 
 } // namespace detail
 
-/// How often the facets for which counts(facet) surround p, which is on none of them.
-/// Exact: signed crossings of a ray.
+/// Winding number around p of the facets for which counts(facet) is true. Needs: p on none of them. Exact:
+/// signed crossings of a ray.
 /// Cost: that of finding the boxes along the ray.
 template<int D, class Counts>
 int winding_number(const Surface<D>& surface, const BoxTree<D>& tree, const Point<D>& p, Counts&& counts) {
@@ -46,7 +46,7 @@ int winding_number(const Surface<D>& surface, const BoxTree<D>& tree, const Poin
             std::array<Point<D>, D + 1> with_p;
             std::copy(corners.begin(), corners.end(), with_p.begin());
             with_p[D] = p;
-            winding += exact::orientation(with_p) == -turn ? turn : 0; // ahead of p
+            winding += exact::orientation(with_p) == -turn ? turn : 0; // the crossing is ahead of p
         }
     });
     return winding;

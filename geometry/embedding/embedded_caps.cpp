@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    /// Sign of all cells of the cap in space; 0 when they differ, one is flat or there is none.
+    /// Common sign of all cells of the cap in space; 0 if signs differ, a cell is flat or there is none.
     int common_sign(CapOf cap) const {
         std::atomic<bool> positive = false;
         std::atomic<bool> negative = false;
@@ -82,7 +82,7 @@ private:
             }
         }
         find_edges(surface);
-        try { // the reasons are of no use here: the pairs of cells will be named
+        try { // the reasons are not needed: the pairs of cells will be reported
             require_domain_boundary(surface, {}, false);
             return true;
         } catch (const GeometryError&) {
@@ -103,7 +103,7 @@ private:
 
     static std::array<Index, 2> edge(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-    /// For D = 2 these are the facets.
+    /// For D = 2 the facets are the edges.
     void find_edges(const Surface<D>& surface) {
         edges_.clear();
         for (const Facet<D>& facet : surface.facets) {
@@ -135,11 +135,11 @@ private:
         return points_[cells_[static_cast<std::size_t>(cell)][0]][D];
     }
 
-    /// Whether the vertices that a side cell has at the cap's time span a face of the cap's boundary.
+    /// Whether the vertices of a side cell at the cap's time span a face of the cap's boundary.
     bool face_on_boundary(std::size_t c, double time) const {
         std::array<Index, D + 1> at{};
         std::size_t count = 0;
-        std::size_t off = 0; ///< a local vertex that is not at the time
+        std::size_t off = 0; ///< a local vertex that is not at this time
         for (std::size_t i = 0; i <= D; ++i) {
             if (points_[cells_[c][i]][D] == time) {
                 at[count++] = on_boundary_[cells_[c][i]];

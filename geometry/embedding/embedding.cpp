@@ -21,7 +21,7 @@ namespace slabhull {
 
 namespace {
 
-/// Runs the conditions of require_domain_boundary(), each relying on those before it.
+/// Checks the conditions of require_domain_boundary(), each relying on those before it.
 template<int D>
 class BoundaryInspection {
 public:
@@ -35,14 +35,14 @@ public:
         require_extent();
         const Adjacency<D - 1> adjacency = build_adjacency<D - 1>(surface_.facets, surface_.points.size());
         require_closed(adjacency);
-        if constexpr (D == 3) { // for D = 2 a closed ridge is a vertex in two edges: a fan
+        if constexpr (D == 3) { // for D = 2 a closed ridge is a vertex in two edges: always one fan
             require_fans(adjacency);
         }
         require_no_crossings();
         require_nesting(Boundary<D>{surface_});
     }
 
-    /// The conditions on places alone.
+    /// Checks the conditions that depend on positions only.
     void run_places(const Boundary<D>& boundary) {
         require_finite_points();
         require_extent();
@@ -51,7 +51,7 @@ public:
     }
 
 private:
-    /// What a ridge is called: the facets meet in vertices (D = 2) or edges (D = 3).
+    /// Name of a ridge, where facets meet: a vertex (D = 2) or edge (D = 3).
     static constexpr const char* ridge_name = D == 2 ? "vertex" : "edge";
 
     [[noreturn]] void refuse(const std::string& message, std::vector<Entity> at_fault) const {
@@ -173,7 +173,8 @@ void BoundaryInspection<D>::require_closed(const Adjacency<D - 1>& adjacency) co
     refuse(message, std::move(at_fault));
 }
 
-/// Facets of a closed surface counted by walking around `vertex` from one of them. Bounded by their number.
+/// Number of facets of a closed surface in the fan around `vertex`, from one of them. Cannot exceed the
+/// number of facets.
 Index fan_size(const Surface<3>& surface, const Adjacency<2>& adjacency, Index start, Index vertex) {
     Index facet = start;
     Index size = 0;
@@ -226,8 +227,8 @@ void BoundaryInspection<D>::require_no_crossings() const {
     refuse(message, std::move(at_fault));
 }
 
-/// The domain must lie on the inner side of each component: seen from it, the others wind around the place
-/// once when it bounds a body, and not at all when it is an outer boundary.
+/// The domain must lie on the inner side of each component. Seen from a component, the winding number of the
+/// others must be 1 if it bounds a body, and 0 if it is an outer boundary.
 template<int D>
 void BoundaryInspection<D>::require_nesting(const Boundary<D>& boundary) const {
     const std::vector<double> enclosed = enclosed_by_components(boundary, surface_);
@@ -248,7 +249,7 @@ void BoundaryInspection<D>::require_nesting(const Boundary<D>& boundary) const {
     }
 }
 
-/// `facet` is the first of the component, `winding` how often the other components wind around it.
+/// `facet`: the first of the component; `winding`: winding number of the other components around it.
 template<int D>
 void BoundaryInspection<D>::judge_component(Index facet, bool outer, bool any_outer, int winding) const {
     if (winding == (outer ? 0 : 1)) {

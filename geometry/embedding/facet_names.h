@@ -15,7 +15,7 @@
 
 namespace slabhull {
 
-/// Things of one kind named in one message, at most.
+/// Largest number of entities of one kind named in a message.
 inline constexpr std::size_t names_listed = 8;
 
 template<std::size_t N>
@@ -23,7 +23,7 @@ std::string place_in_words(const std::array<double, N>& p) {
     return fmt::format("({:.6g})", fmt::join(p, ", "));
 }
 
-/// Facets of a surface in the words of messages: the user's number and the patch.
+/// Names of a surface's facets for messages: the user's number and the patch.
 template<int D>
 class FacetNames {
 public:
@@ -49,7 +49,7 @@ public:
         return fmt::format("facet {} ({}{})", number(f), in.starts_with("patch ") ? "" : "patch ", in);
     }
 
-    /// The first few of them.
+    /// Names of the first few facets.
     std::string list(std::span<const Index> facets) const {
         std::vector<std::string> words;
         for (const Index f : facets.first(std::min(facets.size(), names_listed))) {

@@ -15,8 +15,9 @@ namespace {
 
 using exact::orientation;
 
-/// A triangle pair seen along the axis nearest to the first one's normal. What is apart there is apart; and
-/// nearly flat neighbours, over which orientations in space would have to resort to exact arithmetic, are
+/// A pair of triangles projected along the axis nearest to the first one's normal. If the projections are
+/// apart, so are the triangles. Nearly flat neighbours are well apart in projection, while their orientations
+/// in space would need exact arithmetic.
 /// well apart there.
 class Projected {
 public:
@@ -28,7 +29,7 @@ public:
         }
     }
 
-    /// Convex sets in a plane are apart when an edge of one has the other strictly outside.
+    /// Convex sets in a plane are apart if an edge of one has the other strictly outside.
     bool apart() const {
         for (std::size_t i = 0; i < 3; ++i) {
             if (separates(f_, turn_f_, i, g_) || separates(g_, turn_g_, i, f_)) {
@@ -38,7 +39,7 @@ public:
         return false;
     }
 
-    /// Two angles at corner 0, each less than half a turn, have only that in common: no side of one lies in
+    /// Two angles at corner 0, each less than half a turn, meet only in their apex if no side of one lies in
     /// the other.
     bool apart_beyond_vertex() const {
         return !in_angle(f_, turn_f_, g_[1]) && !in_angle(f_, turn_f_, g_[2]) &&
@@ -66,7 +67,7 @@ private:
     Triangle2 f_;
     Triangle2 g_;
     int turn_f_ = 0;
-    int turn_g_ = 0; ///< 0 when the projection is degenerate, which separates nothing
+    int turn_g_ = 0; ///< 0: the projection is degenerate and separates nothing
 };
 
 std::size_t Projected::axis_for(const FacetCorners<3>& t) {
@@ -90,7 +91,7 @@ void Projected::project(const FacetPair<3>& pair, std::size_t axis) {
     turn_g_ = orientation(g_[0], g_[1], g_[2]);
 }
 
-/// The corners of a triangle from `first` on relative to the plane of another.
+/// Sides of a triangle's corners, from `first` on, relative to the plane of another triangle.
 struct Sides {
     Sides(const FacetCorners<3>& plane, const FacetCorners<3>& t, std::size_t first) {
         for (std::size_t i = first; i < 3; ++i) {
@@ -116,8 +117,8 @@ bool meet_apart(const FacetPair<3>& pair) {
     return g_to_f.coplanar() || (!g_to_f.clear() && exact::meet(pair.f, pair.g));
 }
 
-/// Triangles that share corner 0 only. A common point elsewhere continues along the ray from the shared
-/// corner until one triangle ends: on the far edge of that one, inside the other.
+/// Triangles that share only corner 0. If they meet elsewhere, they meet along the ray from the shared corner
+/// until one triangle ends: on the far edge of that one, inside the other.
 bool meet_beyond_vertex(const FacetPair<3>& pair) {
     const auto& [f, g, shared] = pair;
     if (Projected{pair}.apart_beyond_vertex()) {
@@ -131,13 +132,13 @@ bool meet_beyond_vertex(const FacetPair<3>& pair) {
            (exact::meet(exact::Segment3{g[1], g[2]}, f) || exact::meet(exact::Segment3{f[1], f[2]}, g));
 }
 
-/// Triangles that share corners 0 and 1 overlap only when folded flat onto each other.
+/// Triangles that share corners 0 and 1 overlap only if folded flat onto each other.
 bool folded(const FacetPair<3>& pair) {
     return !Projected{pair}.apart_beyond_edge() &&
            orientation(pair.f[0], pair.f[1], pair.f[2], pair.g[2]) == 0;
 }
 
-/// Segments that share end 0 only: they overlap when they leave it in the same direction.
+/// Segments that share only end 0 overlap if they leave it in the same direction.
 bool overlap(const FacetCorners<2>& f, const FacetCorners<2>& g) {
     if (orientation(f[0], f[1], g[1]) != 0) {
         return false;
@@ -250,7 +251,8 @@ bool meet_elsewhere(const FacetPair<3>& pair) {
 
 template<int D>
 Point<D> meeting_place(const FacetPair<D>& pair) {
-    // Projections onto two convex sets in turn approach a common point. Start away from what they share.
+    // Alternating projections onto two convex sets approach a common point. Start away from the shared
+    // vertices.
     Point<D> x = times(0.5, plus(pair.f[D - 1], pair.g[D - 1]));
     for (int step = 0; step < 50; ++step) {
         x = nearest_on(pair.g, nearest_on(pair.f, x));

@@ -34,13 +34,12 @@ struct FacetPair {
 template<int D>
 FacetPair<D> pair_of_facets(const Surface<D>& surface, Index first, Index second);
 
-/// Boxes of the facets; that of a facet without extent, or with a coordinate that is no finite number, is
-/// empty.
+/// Bounding boxes of the facets; empty for a facet without extent or with a coordinate that is not finite.
 template<int D>
 Array<Box<D>> facet_boxes(const Surface<D>& surface);
 
-/// Whether two non-degenerate facets have a point in common that the vertices and edges they share do not
-/// explain. Exact; most neighbours on a smooth or flat surface are cleared by one or two orientations.
+/// Whether two non-degenerate facets have a common point outside their shared vertices and edges. Exact; most
+/// neighbours on a smooth or flat surface are decided by one or two orientations.
 bool meet_elsewhere(const FacetPair<2>& pair);
 bool meet_elsewhere(const FacetPair<3>& pair);
 

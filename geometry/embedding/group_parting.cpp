@@ -11,11 +11,11 @@ namespace slabhull {
 
 namespace {
 
-/// Of points along a direction.
+/// Extent of points along a direction.
 struct Span {
     double least = std::numeric_limits<double>::infinity();
     double most = -std::numeric_limits<double>::infinity();
-    std::size_t first = 0; ///< the point that is least
+    std::size_t first = 0; ///< the point with the least value
     std::size_t last = 0;
 };
 
@@ -57,7 +57,7 @@ public:
 private:
     using Matrix = std::array<std::array<double, N>, N>;
 
-    /// The lower half of the covariance.
+    /// Adds the lower half of the covariance matrix.
     static void add_spread(const VertexCloud<N>& cloud, Matrix& m) {
         const double share = 1 / static_cast<double>(cloud.size);
         for (std::size_t p = 0; p < cloud.size; ++p) {
@@ -81,7 +81,7 @@ private:
             trace += m[i][i];
             h[i] = b_.mean[i] - a_.mean[i];
         }
-        for (std::size_t j = 0; j < N; ++j) { // by Cholesky's method without roots
+        for (std::size_t j = 0; j < N; ++j) { // Cholesky's method without square roots
             m[j][j] += 1e-3 * trace;          // clouds may be flat
             for (std::size_t i = j + 1; i < N; ++i) {
                 const double factor = m[i][j] / m[j][j];
@@ -130,9 +130,8 @@ private:
         return span;
     }
 
-    /// Each of the two sums that are compared is off by at most N + 2 roundings of terms that are no larger
-    /// than their bound here, so 16 unit roundoffs cover both, and the tiny number what underflows, when the
-    /// coordinates are scaled, too.
+    /// Each of the two sums compared has at most N + 2 roundings of terms no larger than bounded here, so 16
+    /// unit roundoffs cover both. The tiny constant covers underflow when coordinates are scaled.
     double bound(const Point<N>& h) const {
         double terms = 0;
         for (std::size_t k = 0; k < N; ++k) {
@@ -141,7 +140,7 @@ private:
         return 16 * unit_roundoff * terms + 1e-290;
     }
 
-    /// The relaxation method, see cell_separation.cpp, on the two points that are worst.
+    /// The relaxation method, see cell_separation.cpp, applied to the two worst points.
     static void reflect(Point<N>& h, const Point<N>& p, const Point<N>& q) {
         double along = 0;
         double square = 0;

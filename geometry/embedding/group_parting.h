@@ -17,16 +17,16 @@ struct VertexCloud {
     std::array<Point<N>, most> points; ///< scaled
     std::size_t size = 0;
     Point<N> mean{};
-    bool in_range = true; ///< no coordinate is so large that sums could overflow
+    bool in_range = true; ///< coordinates are small enough that sums cannot overflow
 
     /// `scale`: powers of two by which coordinates are multiplied.
     void assign(std::span<const Index> vertices, std::span<const Point<N>> all, const Point<N>& scale);
 };
 
-/// Whether the hulls of two clouds are proven apart: a hyperplane parts them strictly, whatever is rounded.
-/// Tried are the line from one mean to the other, Fisher's discriminant, which parts clouds that lie
-/// obliquely but alike as well as others, and relaxation from there. False only says that none was found
-/// soon.
+/// Whether the convex hulls of two clouds are proven apart: a hyperplane separates them strictly, rounding
+/// errors included. Tried are the line between the means, Fisher's discriminant, which separates oblong
+/// clouds of like orientation as well as others, and relaxation from there. False only says that none was
+/// found soon.
 template<int N>
 bool proven_parted(const VertexCloud<N>& a, const VertexCloud<N>& b);
 

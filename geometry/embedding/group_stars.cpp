@@ -29,7 +29,7 @@ double determinant(const Point<3>& o, const Point<3>& a, const Point<3>& b, cons
 
 } // namespace
 
-/// The proof for one vertex after the other; keeps its memory.
+/// Runs the proof vertex by vertex, reusing its memory.
 template<int D>
 class StarProof {
 public:
@@ -48,11 +48,11 @@ public:
 
 private:
     using Place = Point<D>;
-    /// Numbers of places: the vertices of a cell, or of the simplex of v, number 0, and a facet of the
-    /// border.
+    /// Positions of the vertices of a cell, or of the simplex of v and a border facet, by number; v is number
+    /// 0.
     struct Corners {
         std::array<std::uint32_t, D + 1> at;
-        std::size_t apex; ///< where 0 stands
+        std::size_t apex; ///< local number of v
     };
 
     void collect(Index v) {
@@ -70,16 +70,16 @@ private:
         return project(direction) && keeps_orientation() && covers_once();
     }
 
-    /// Places of all vertices from that of v, projected along `direction` onto the coordinates other than the
-    /// one it is steepest on. False when the numbers are out of the range in which the bounds hold.
+    /// Positions of all vertices relative to v, projected along `direction` onto all coordinates but that of
+    /// its largest component. False if they are out of the range in which the error bounds hold.
     ///
-    /// The slopes are exact by being what they are: they define the direction. With u the unit roundoff and
-    /// m[j] the largest |x_j| + |slope_j x_k| of all places, a computed coordinate j is within 3.1 u m[j] of
-    /// the true one: one rounding of each difference, one of the product, one of the sum. The difference of
-    /// two is within 8.2 u m[j] of the true one and not larger than 2 m[j]. A determinant is a sum of six
+    /// The slopes have no error, since they define the direction. With u the unit roundoff and m[j] the
+    /// largest |x_j| + |slope_j x_k| of all positions, a computed coordinate j is within 3.1 u m[j] of the
+    /// true one: one rounding of each difference, one of the product, one of the sum. The difference of two
+    /// is within 8.2 u m[j] of the true one and not larger than 2 m[j]. A determinant is a sum of six
     /// products of three of these (two of two), each off by 99 u times the product of the m by its factors
-    /// and by 48 u times it by its own roundings: 882 u in all. What is lost to underflow is far less, as the
-    /// m are kept from being tiny or huge.
+    /// and by 48 u times it by its own roundings: 882 u in all. Underflow loses far less, as the m are kept
+    /// from being tiny or huge.
     bool project(const Point<D + 1>& direction) {
         std::size_t axis = 0;
         for (std::size_t k = 1; k <= D; ++k) {
@@ -116,7 +116,7 @@ private:
         return in_range;
     }
 
-    /// Points 1 and 2 of the proof; lists the border.
+    /// Checks points 1 and 2 of the proof and lists the border.
     bool keeps_orientation() {
         border_.clear();
         sign_ = 0;
@@ -137,7 +137,7 @@ private:
         return true;
     }
 
-    /// Facets with v are never in the border: all cells that have v are here.
+    /// Facets at v are never in the border: all cells at v are here.
     bool sees_border(std::size_t cell, unsigned outer, const Corners& corners) {
         const Simplex<D>& vertices = s_.cells_[cell];
         const auto own = std::find(vertices.begin(), vertices.end(), v_) - vertices.begin();
@@ -159,7 +159,7 @@ private:
         return true;
     }
 
-    /// Groups are few but around the hubs of meshes.
+    /// A linear search is fine: vertices have few groups, hubs of meshes excepted.
     bool is_here(Index cell) const {
         if (groups_.size() > 64) {
             return is_here_by_search(cell);
@@ -189,7 +189,7 @@ private:
         }
     }
 
-    /// Surely of the same sign as the first that was asked for.
+    /// Whether the sign is provably that of the first simplex asked for.
     bool is_positive(const Corners& corners) {
         const double value = orientation(corners.at);
         if (sign_ == 0) {
@@ -198,7 +198,7 @@ private:
         return sign_ * value > tolerance_;
     }
 
-    /// Point 3 of the proof, with the middle of one or another facet of the border for the direction.
+    /// Checks point 3 of the proof, with the centroid of some border facet as the direction.
     bool covers_once() {
         constexpr std::size_t tries = 4;
         places_.emplace_back();
@@ -227,8 +227,8 @@ private:
         return true;
     }
 
-    /// Of the simplex over a facet, with the direction in place of vertex i. Its place has no error and is no
-    /// larger than the others, so the bound holds.
+    /// Orientation of the simplex of v and a facet with the direction in place of vertex i. Its position has
+    /// no error and is no larger than the others, so the bound holds.
     double side(const Corners& facet, std::size_t i) const {
         auto at = facet.at;
         at[i] = static_cast<std::uint32_t>(places_.size() - 1);
@@ -250,8 +250,8 @@ private:
         return false;
     }
 
-    /// Turns `direction` to have all normals on its side, by the relaxation method (Motzkin and Schoenberg,
-    /// Canad. J. Math. 6, 1954). False when that does not succeed soon.
+    /// Turns `direction` so that all normals are on its side, by the relaxation method (Motzkin and
+    /// Schoenberg, Canad. J. Math. 6, 1954). False if that does not succeed soon.
     bool steer(Point<D + 1>& direction) {
         constexpr int most_steps = 100;
         constexpr std::size_t most_cells = 4096;
@@ -262,7 +262,7 @@ private:
         for (int step = 0; step < most_steps; ++step) {
             const double length = norm(direction);
             const Point<D + 1>* worst = nullptr;
-            double least = 0.02 * length; // not only just
+            double least = 0.02 * length; // with a margin
             for (const Point<D + 1>& normal : unit_normals_) {
                 const double along = dot(direction, normal);
                 if (along < least) {
@@ -297,8 +297,8 @@ private:
     const GroupStars<D>& s_;
     Index v_ = 0;
     std::span<const Index> groups_;
-    std::vector<Index> first_; ///< cell of each group
-    std::vector<Index> cells_; ///< how many each has
+    std::vector<Index> first_; ///< first cell of each group
+    std::vector<Index> cells_; ///< number of cells of each group
     std::vector<Place> places_;
     std::vector<Corners> border_;
     std::vector<Point<D + 1>> unit_normals_;
@@ -380,12 +380,12 @@ std::vector<char> GroupStars<D>::prove(std::span<const Index> vertices) const {
 
 namespace {
 
-/// Whether another vertex has all tested groups that v has, and may stand for it.
+/// Whether another vertex is in all tested groups of v, and represents it.
 template<int D>
 bool is_covered(const CellGroups<D>& groups, Index v) {
     const auto own = groups.tested_groups_of(v);
     if (own.size() > 2) {
-        return false; // seldom, and not worth the search
+        return false; // rare, and not worth the search
     }
     const auto around = groups.vertices(own.front());
     return std::any_of(around.begin(), around.end(), [&](Index w) {

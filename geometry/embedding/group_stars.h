@@ -14,49 +14,49 @@
 
 namespace slabhull {
 
-/// Proves for the groups around a vertex v, together, that their cells have nothing in common but common
-/// faces. All of it is in floating point with bounds of its errors, and linear in the cells.
+/// Proves for all groups around a vertex v at once that their cells meet in common faces only. In floating
+/// point with error bounds, and linear in the cells.
 ///
-/// Let M be the cells of all groups that have v. Facets of M are in one of its cells, and then on the border
-/// of M, or in two that agree in orientation. Shown is, for a projection along a direction d onto D
+/// Let M be the cells of all groups at v. A facet of M is in one of its cells, and then in the border of M,
+/// or in two that agree in orientation. The proof shows, for a projection along a direction d onto D
 /// dimensions:
 ///
 /// 1. All cells of M keep their orientation, strictly: their normals are on one side of d.
-/// 2. Every facet F of the border is seen from v on its inner side, strictly: the simplex of v and F has the
-///    cells' orientation.
+/// 2. Every facet F of the border has v on its inner side, strictly: the simplex of v and F has the cells'
+///    orientation.
 /// 3. There is a direction from v in which exactly one facet of the border lies.
 ///
 /// Then the projection is injective on M, so M is embedded:
 ///
-/// - Seen from v the border is a cycle on the sphere of directions, all its facets counted positively. Such a
-///   cycle covers all generic directions equally often: once, by 3.
-/// - The cells of M and the simplices of v and the border's facets are chains with one boundary, so they
-///   cover generic points equally often; the latter at most once.
-/// - Let points x and x' of M, in the interiors of faces s and s', be projected onto the same place. When no
-///   facet of the border has s, the cells of M around s leave no facet open there; so they cover a whole
-///   neighbourhood of the place, and a cell with x' that is not among them would cover a part of it twice. It
-///   is among them, then; a cell is projected without loss, so x = x'. When both s and s' are in the border,
-///   the same holds one dimension lower: the border's facets around s cover a whole neighbourhood of the
-///   direction that x has from v, so one of them has x', and x = x'.
+/// - Seen from v, the border is a cycle on the sphere of directions, all its facets counted positively.
+///   Such a cycle covers all generic directions equally often: once, by 3.
+/// - The cells of M, and the simplices of v and the border's facets, are chains with the same boundary, so
+///   they cover generic points equally often; the latter at most once.
+/// - Let x and x' be points of M, in the interiors of faces s and s', with the same projection. If s is in no
+///   facet of the border, the cells of M around s cover a whole neighbourhood of that projection. A cell with
+///   x' that is not among them would cover a part of it twice. So it is among them; a cell is projected
+///   injectively, so x = x'. If both s and s' are in the border, the same holds one dimension lower: the
+///   border's facets around s cover a whole neighbourhood of the direction from v to x, so one of them has
+///   x', and x = x'.
 ///
-/// Nothing here asks that the cells around a vertex or edge hang together.
+/// The proof does not assume that the cells around a vertex or edge are connected.
 template<int D>
 class GroupStars {
 public:
-    /// Needs: `neighbors` of all cells, right, each facet in two cells that agree. `scale`: see
+    /// Needs: `neighbors` of all cells, correct, each facet in two cells that agree. `scale`: see
     /// scale_of_cells().
     GroupStars(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
                std::span<const Neighbors<D>> neighbors, const CellGroups<D>& groups,
                const Point<D + 1>& scale);
 
-    /// For each vertex of `vertices` whether its groups are proven embedded together.
+    /// For each vertex of `vertices`: whether its groups together are proven embedded.
     std::vector<char> prove(std::span<const Index> vertices) const;
 
 private:
-    /// A cell by the places of its vertices in the list of its group.
+    /// A cell by its vertices' local numbers in the list of its group.
     struct LocalCell {
         std::array<std::uint8_t, D + 1> corner;
-        std::uint8_t outer; ///< bit i: facet i is not one of two cells of the group
+        std::uint8_t outer; ///< bit i: facet i is not shared by two cells of the group
     };
 
     void list_cells(std::size_t group);
@@ -78,8 +78,8 @@ private:
     friend class StarProof;
 };
 
-/// Vertices such that any two tested groups that touch are both among the groups of one of these; so are any
-/// two cells of one group.
+/// Vertices such that any two tested groups that touch are both at one of these vertices; so are any two
+/// cells of one group.
 template<int D>
 std::vector<Index> star_centres(const CellGroups<D>& groups, std::size_t vertex_count);
 

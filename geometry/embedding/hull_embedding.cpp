@@ -21,14 +21,14 @@ namespace slabhull {
 
 namespace {
 
-/// What the search in one stretch of the groups gave.
+/// Result of the search in one range of the groups.
 template<int D>
 struct Piece {
     PairTally<D> pairs;
     std::size_t group_pairs = 0;
 };
 
-/// Decides the pairs of groups that are left: stars that were not proven, and groups that do not touch.
+/// Decides the remaining pairs of groups: those in unproven stars, and groups that do not touch.
 template<int D>
 class EmbeddingSearch {
 public:
@@ -48,7 +48,7 @@ public:
     }
 
 private:
-    /// Those of a closed and oriented complex, or none.
+    /// The neighbours of a closed and oriented complex, else none.
     std::span<const Neighbors<D>> neighbors() const {
         return adjacency_.defects.empty() ? adjacency_.neighbors : std::span<const Neighbors<D>>{};
     }
@@ -85,7 +85,7 @@ private:
                            [&](Index v) { return star_of_[v] == Star::proven; });
     }
 
-    /// Cells without extent, which pair with nothing and are reported; there are none in proven stars.
+    /// Finds cells without extent, which are not paired but reported. Proven stars have none.
     void find_degenerate() {
         for (std::size_t g = 0; g < groups_.tested(); ++g) {
             for (std::size_t k = 0; k < groups_.cell_count(g) && !in_proven_star(g); ++k) {
@@ -99,8 +99,8 @@ private:
         std::sort(degenerate_.begin(), degenerate_.end());
     }
 
-    /// Calls work(item, piece) for all items. In rounds that grow, so that a hull which crosses itself
-    /// everywhere ends soon, with the same result for any number of threads.
+    /// Calls work(item, piece) for all items. The rounds grow, so that a hull with crossings everywhere ends
+    /// soon, with the same result for any number of threads.
     void in_rounds(std::size_t count, const std::function<void(std::size_t item, Piece<D>&)>& work) {
         std::size_t round = 2;
         for (std::size_t first = 0; first < count && result_.crossings.size() <= limit_; first += round) {
@@ -139,7 +139,7 @@ private:
         });
     }
 
-    /// Whether no star proves anything of two groups and `centre` is the first of those that they share.
+    /// Whether two groups are in no common proven star, and `centre` is that of their first common star.
     bool is_due(Index first, Index second, Index centre) const {
         const auto f = groups_.vertices(first);
         const auto g = groups_.vertices(second);
@@ -149,7 +149,7 @@ private:
         });
     }
 
-    /// Pairs whose boxes meet, of two groups or within one.
+    /// Decides pairs of cells whose boxes meet, of two groups or within one.
     void pair_cells(Index first, Index second, Piece<D>& piece) const {
         std::array<Box<D + 1>, CellGroups<D>::most_cells> boxes;
         const Index f = groups_.first_cell(first);
@@ -169,7 +169,7 @@ private:
         }
     }
 
-    /// An empty one, which meets nothing, for a cell without extent.
+    /// The box of a cell; empty, so that it meets nothing, for a cell without extent.
     Box<D + 1> extended_box(Index cell) const {
         const bool none = std::binary_search(degenerate_.begin(), degenerate_.end(), cell);
         return none ? Box<D + 1>{} : box_of<D>(cells_[cell], points_);
@@ -183,7 +183,7 @@ private:
         return box;
     }
 
-    /// The clouds of some groups, those used last.
+    /// A cache of the clouds used last.
     struct Clouds {
         static constexpr std::size_t kept = 2 * BoxTree<D + 1>::block;
         std::array<VertexCloud<D + 1>, kept> clouds;
@@ -203,7 +203,7 @@ private:
         }
     };
 
-    /// Groups that touch are left out: they are in a star.
+    /// Pairs of groups that do not touch. Those that touch are in a common star.
     void pair_apart() {
         const BoxTree<D + 1> tree{groups_.tested(), [&](std::size_t group) { return group_box(group); }};
         in_rounds(tree.blocks(), [&](std::size_t block, Piece<D>& piece) {
@@ -253,7 +253,7 @@ private:
     CellPairs<D> cell_pairs_;
     HullEmbedding<D> result_;
     CellGroups<D> groups_;
-    std::vector<Index> centres_; ///< of stars; then of those not proven
+    std::vector<Index> centres_; ///< centres of stars; later only of those not proven
     Array<Star> star_of_;        ///< by vertex
     std::vector<Index> degenerate_;
 };

@@ -23,7 +23,7 @@ struct AffineMap {
         return image;
     }
 
-    /// A x alone: how the map acts on differences of points.
+    /// A x alone: the map of differences of points.
     Point<D> linear(const Point<D>& x) const {
         Point<D> image{};
         for (std::size_t i = 0; i < D; ++i) {
@@ -55,7 +55,7 @@ struct AffineMap {
     }
 };
 
-/// The map with linear part `rows` that keeps `centre` where it is.
+/// The map with linear part `rows` that fixes `centre`.
 template<int D>
 AffineMap<D> map_about(const Point<D>& centre, const std::array<Point<D>, D>& rows) {
     AffineMap<D> map{rows, {}};
@@ -80,8 +80,8 @@ AffineMap<D> compose(const AffineMap<D>& outer, const AffineMap<D>& inner) {
     return both;
 }
 
-/// Inverse of a similarity (a rotation or reflection times a positive factor, and a shift).
-/// Throws GeometryError when the map is none: singular, shearing, or not finite.
+/// Inverse of a similarity (a rotation or reflection, times a positive factor, plus a shift). Throws
+/// GeometryError if the map is not a similarity: singular, shearing, or not finite.
 template<int D>
 AffineMap<D> inverse_of_similarity(const AffineMap<D>& map);
 

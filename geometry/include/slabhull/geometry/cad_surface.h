@@ -15,15 +15,14 @@ enum class CadFormat { step, brep };
 bool has_cad_surfaces();
 
 /// The faces of a CAD model as a projection surface: the closest point of all faces, their edges and corners
-/// included. Lengths are as written, in the file's own unit (its first one, where it has several), and stay
-/// so: a STEP file in metres gives metres, one in millimetres gives millimetres.
-/// The closest point is exact to rounding on planes, cylinders, cones, spheres, tori and their trims, and
-/// refined to it on splines. Near an edge the model itself is only good to tolerance(): within it faces go
-/// before edges.
-/// `name` is the file's in messages. Throws UsageError without OpenCASCADE, InputError naming the file when
-/// it cannot be understood or holds no faces.
-/// Cost of a closest point: one pass over the boxes of all faces and edges, microseconds for each face of
-/// simple shape whose box is near enough, some 50 to 500 for a spline.
+/// included. Lengths stay in the file's own unit (its first one, if it has several): a STEP file in metres
+/// gives metres, one in millimetres gives millimetres. The closest point is exact to rounding on planes,
+/// cylinders, cones, spheres, tori and their trims, and refined to rounding on splines. Near an edge the
+/// model itself is only accurate to tolerance(); within it faces take precedence over edges. `name` names the
+/// file in messages. Throws UsageError without OpenCASCADE, InputError naming the file if it cannot be read
+/// or holds no faces.
+/// Cost of a closest point: one pass over the boxes of all faces and edges, then for each face whose box is
+/// near enough microseconds if its shape is simple, some 50 to 500 for a spline.
 ProjectionSurfacePointer<3> cad_surface(std::istream& in, CadFormat format, const std::string& name);
 
 } // namespace slabhull

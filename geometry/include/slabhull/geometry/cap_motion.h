@@ -9,17 +9,17 @@
 namespace slabhull {
 
 struct CapMotionOptions {
-    /// How exactly inner vertices follow: the residual relative to that of inner vertices at rest. 0.01 keeps
-    /// cells as good as the exact solution does; 0.03 lets small ones near a moving body lag behind. Computed
-    /// in single precision, so 1e-5 is about the least.
+    /// Accuracy of the inner vertices' displacement: residual relative to that of inner vertices at rest.
+    /// 0.01 keeps cells as good as the exact solution does; with 0.03 small cells near a moving body lag
+    /// behind. Computed in single precision, so 1e-5 is about the least.
     double tolerance = 0.01;
-    int most_iterations = 500; ///< some 20 to 50 are usual
+    int most_iterations = 500; ///< usually 20 to 50 suffice
 };
 
-/// For what moves in small steps and must not tangle: the smallest cells beside a body follow it, too.
+/// For motions in small steps that must not tangle: the smallest cells beside a body follow it, too.
 inline constexpr double careful_tolerance = 1e-4;
 
-/// A cap whose vertices have moved; its cells are what they were.
+/// A cap whose vertices have moved; its cells are unchanged.
 template<int D>
 struct MovedCap {
     Array<Point<D>> points;
@@ -29,22 +29,20 @@ struct MovedCap {
 };
 
 /// Moves the inner vertices of a cap with its boundary: vertex boundary[b] goes to targets[b], bit for bit.
-/// The others are displaced by an affine map, the one that fits the boundary's displacement best in the sense
-/// of least squares, plus a solution of div(kappa grad u) = 0 for what it leaves of that. So a motion that is
-/// affine all over is reproduced to rounding, and any other spreads over large, round cells, while small or
-/// flat ones near a body go along with it (kappa: geometry/stiffness.h; stiffening by cell size as in
-/// Stein, Tezduyar and Benney, Journal of Applied Mechanics 70, 2003).
+/// The others are displaced by the affine map that is the least-squares fit to the boundary's displacement,
+/// plus a solution of div(kappa grad u) = 0 for the remainder. So an affine motion is reproduced to rounding.
+/// Any other is taken up by large, round cells, while small or flat ones near a body move with it (kappa:
+/// geometry/stiffness.h; stiffening by cell size as in Stein, Tezduyar and Benney, Journal of Applied
+/// Mechanics 70, 2003).
 ///
-/// Whether the result is good enough is for the caller to say, by `sound` and `smallest_angle`; nothing is
-/// assumed about the displacement. A cap that cannot be moved, or is poor to begin with, is unsound or has a
-/// small angle; points of a cap that is not sound may be NaN.
+/// The caller judges the result, by `sound` and `smallest_angle`; nothing is assumed about the displacement.
+/// A cap that cannot be moved, or is poor to begin with, comes out unsound or with a small angle; points of
+/// an unsound cap may be NaN.
 ///
-/// Nothing is remembered between calls: the same cap and targets give the same bytes, with any number of
-/// threads.
-/// Needs: positive cells; `boundary` all the vertices of their boundary facets, each once (more may be
-/// given), as many as `targets`.
-/// Throws UsageError for no boundary, for targets of another number and for vertices that do not exist;
-/// GeometryError naming an inner vertex around which the cells fill no ball.
+/// Calls keep no state: the same cap and targets give the same bytes, with any number of threads.
+/// Needs: positive cells; `boundary` has all vertices of their boundary facets, each once (more are allowed),
+/// as many as `targets`. Throws UsageError for no boundary, for targets of another number and for vertices
+/// out of range; GeometryError naming an inner vertex around which the cells do not fill a ball.
 /// Cost: near-linear; some 0.35 microseconds per tetrahedron on one thread, a tenth of mesh_cap(), and 60
 /// bytes of each.
 template<int D>

@@ -11,9 +11,8 @@
 
 namespace slabhull {
 
-/// Two facets of a surface that meet elsewhere than in the vertices and edges they share; or one facet
-/// without extent (a segment of length 0, a triangle whose corners lie on a line, a coordinate that is no
-/// finite number), which stands as both.
+/// Two facets of a surface that meet outside their shared vertices and edges; or one facet without extent (a
+/// segment of length 0, a triangle with collinear corners, a coordinate that is not finite), which is both.
 template<int D>
 struct Crossing {
     Index first = no_index;
@@ -21,10 +20,10 @@ struct Crossing {
     Point<D> near{};         ///< a point close to where they meet
 };
 
-/// All pairs of crossing facets, sorted; decided exactly. D = 2: segments, D = 3: triangles.
-/// When there are more than `limit`, some of them. Touching, overlapping and folded (two facets on the same
-/// side of a shared edge) pairs count. Coincident vertices with different numbers are seen as touching. A
-/// facet without extent is paired with itself only.
+/// All pairs of crossing facets, sorted; decided exactly. D = 2: segments, D = 3: triangles. If there are
+/// more than `limit`, some of them. Touching, overlapping and folded pairs (two facets on the same side of
+/// a shared edge) count. Coincident vertices with different numbers count as touching. A facet without extent
+/// is paired with itself only.
 /// Needs: facets that refer to points of the surface.
 /// Cost: near-linear for facets of any sizes whose boxes meet few others; 1.5 million triangles/s on one
 /// thread.
@@ -32,9 +31,9 @@ struct Crossing {
 template<int D>
 std::vector<Crossing<D>> find_crossings(const Surface<D>& surface, std::size_t limit = 100);
 
-/// How facets are called in messages.
+/// Names of facets in messages.
 struct FacetNaming {
-    std::string where;                 ///< put first, such as "room.msh" or "at t = 0.25"
+    std::string where;                 ///< prefix, such as "room.msh" or "at t = 0.25"
     std::vector<std::int64_t> numbers; ///< the user's number of each facet; empty: counted from 0
 };
 
@@ -46,8 +45,8 @@ struct FacetNaming {
 template<int D>
 void require_domain_boundary(const Surface<D>& surface, const FacetNaming& naming, bool is_input);
 
-/// The same for a boundary that lies as in `surface`: connectivity is known, so only places are looked at.
-/// Throws GeometryError. Cost: that of find_crossings().
+/// The same for a boundary with the positions of `surface`: connectivity is known, so only positions are
+/// checked. Throws GeometryError. Cost: that of find_crossings().
 template<int D>
 void require_domain_boundary(const Boundary<D>& boundary, const Surface<D>& surface,
                              const FacetNaming& naming = {});

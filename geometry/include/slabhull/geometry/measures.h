@@ -26,21 +26,22 @@ struct AngleRange {
     double smallest;
     double largest;
 };
-/// For (D, N) = (2, 2), (2, 3), (3, 3), (3, 4). From the Gram matrix of the edges: good to about 1e-6 degrees
-/// near 0 and 180. A simplex with a facet of measure zero has no dihedral angle there: its range is 0 to 180.
+/// For (D, N) = (2, 2), (2, 3), (3, 3), (3, 4). From the Gram matrix of the edges: accurate to about 1e-6
+/// degrees near 0 and 180. A simplex with a facet of measure zero has no dihedral angle there: its range is 0
+/// to 180.
 template<int D, int N>
 AngleRange dihedral_angles(const std::array<Point<N>, D + 1>& corners);
 
 /// How many dihedral angles lie in [0, 10), [10, 20) .. [170, 180] degrees.
 inline constexpr std::size_t angle_bins = 18;
 using AngleHistogram = std::array<std::size_t, angle_bins>;
-/// All dihedral angles of simplices (D = 2: the angles) but of those with a facet of measure zero.
+/// All dihedral angles of simplices (D = 2: the angles), except simplices with a facet of measure zero.
 /// For (D, N) = (2, 3), (3, 3), (3, 4).
 template<int D, int N>
 AngleHistogram angle_histogram(std::span<const Point<N>> points, std::span<const Simplex<D>> cells);
 
-/// Longest edge over diameter of the inscribed ball, in proportion to that of the regular simplex: 1 for it,
-/// the larger the flatter, infinite for a simplex without measure. Time counts like a length.
+/// Longest edge over diameter of the inscribed ball, relative to the regular simplex: 1 for that, larger for
+/// flatter ones, infinite for a simplex without measure. Time counts like a length.
 /// For (D, N) = (2, 3), (3, 4).
 template<int D, int N>
 double aspect_ratio(const std::array<Point<N>, D + 1>& corners);
@@ -49,7 +50,7 @@ struct AspectRatios {
     double mean = 0;
     double largest = 0;
 };
-/// Of all simplices; zeros when there are none. The same for any number of threads.
+/// Over all simplices; zeros if there are none. The same for any number of threads.
 template<int D, int N>
 AspectRatios aspect_ratios(std::span<const Point<N>> points, std::span<const Simplex<D>> cells);
 
@@ -65,8 +66,8 @@ std::array<Point<N>, D + 1> corners_of(const Simplex<D>& cell, std::span<const P
 
 namespace detail {
 
-/// Sum with Neumaier's correction (Zeitschrift fuer angewandte Mathematik und Mechanik 54, 1974). What each
-/// step loses is found by Knuth's way, without a branch on which is larger.
+/// Sum with Neumaier's correction (Zeitschrift fuer angewandte Mathematik und Mechanik 54, 1974). The
+/// rounding error of each step is found by Knuth's method, without branching on which term is larger.
 class CompensatedSum {
 public:
     void add(double x) {
@@ -86,8 +87,7 @@ private:
     double lost_ = 0;
 };
 
-/// The extreme cosines of dihedral angles, kept as cos |cos|: it grows with the cosine and needs no square
-/// root.
+/// The extreme cosines of dihedral angles, as cos |cos|: monotone in the cosine, and needs no square root.
 struct CosineRange {
     double smallest = 1;
     double largest = -1;
@@ -96,7 +96,7 @@ struct CosineRange {
         smallest = std::min(smallest, s);
         largest = std::max(largest, s);
     }
-    void add(const CosineRange& other) { // which may be empty: smallest 1, largest -1
+    void add(const CosineRange& other) { // may be empty: smallest 1, largest -1
         smallest = std::min(smallest, other.smallest);
         largest = std::max(largest, other.largest);
     }
@@ -116,12 +116,12 @@ struct Measures {
     std::size_t cells = 0;
 };
 
-/// Compensated sums in a fixed order of pieces: the same for any number of threads. x is taken relative to
-/// the first point, which changes nothing for a closed hull and loses fewer digits.
+/// Compensated sums in a fixed order of pieces: the same for any number of threads. x is relative to the
+/// first point, which does not affect a closed hull and loses fewer digits.
 template<int D>
 Measures<D> measure_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells);
 
-/// What measure_cells() sums, simplex by simplex, for those who look at each one anyway.
+/// Accumulates the sums of measure_cells() simplex by simplex, for callers that visit each one anyway.
 template<int D>
 class MeasureSums {
 public:
@@ -141,7 +141,7 @@ private:
 /// Sums over D-simplices in R^D.
 struct SolidMeasures {
     double measure = 0;        ///< sum of the signed measures
-    double smallest = 0;       ///< signed measure of a simplex; infinite when there are none
+    double smallest = 0;       ///< least signed measure of a simplex; infinite if there are none
     AngleRange angles{180, 0}; ///< over all simplices, in degrees
 };
 template<int D>
@@ -150,7 +150,7 @@ SolidMeasures measure_solid(std::span<const Point<D>> points, std::span<const Si
 extern template class MeasureSums<2>;
 extern template class MeasureSums<3>;
 
-/// Measure of a D-simplex in R^N; N is D or D + 1, for edges anything.
+/// Measure of a D-simplex in R^N; N is D or D + 1, any N for edges.
 template<int D, int N>
 double simplex_measure(const std::array<Point<N>, D + 1>& corners) {
     if constexpr (N == D) {
@@ -159,7 +159,7 @@ double simplex_measure(const std::array<Point<N>, D + 1>& corners) {
         Point<N> normal{};
         if constexpr (D == 1) {
             for (std::size_t k = 0; k < N; ++k) {
-                normal[k] = corners[1][k] - corners[0][k]; // as long as a normal
+                normal[k] = corners[1][k] - corners[0][k]; // an edge's measure is that of its vector
             }
         } else {
             normal = simplex_normal<D>(corners);
@@ -168,7 +168,7 @@ double simplex_measure(const std::array<Point<N>, D + 1>& corners) {
     }
 }
 
-/// Signed measure on the inner side of some facets of a surface: positive when their normals leave it.
+/// Signed measure enclosed by some facets of a surface: positive if their normals point outward.
 template<int D>
 double enclosed_by(const Surface<D>& surface, std::span<const Index> facets);
 

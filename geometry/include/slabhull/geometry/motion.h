@@ -15,8 +15,8 @@
 
 namespace slabhull {
 
-/// How the points of a boundary patch move: a velocity field dx/dt = v(x, t).
-/// Immutable; all members may be called from several threads at once.
+/// Motion of the points of a boundary patch: a velocity field dx/dt = v(x, t). Immutable; all members may be
+/// called from several threads at once.
 template<int D>
 class Motion {
 public:
@@ -26,15 +26,15 @@ public:
     /// Throws GeometryError where the field has no finite value.
     virtual void velocity(std::span<const Point<D>> x, double t, std::span<Point<D>> v) const = 0;
 
-    /// The path in closed form: takes the position at time `from` to that at time `to`. Empty where none is
+    /// The path in closed form: maps the position at time `from` to that at time `to`. Empty if none is
     /// known.
     virtual std::optional<AffineMap<D>> map(double from, double to) const = 0;
 
     /// False only for a motion that leaves every point in its place.
     virtual bool moves() const { return true; }
 
-    /// Ascending: the times of a table's rows. Between two of them paths are smooth; who samples a path shall
-    /// not step over them. Empty where the motion is no table.
+    /// Times of a table's rows, ascending. Paths are smooth between two of them; a caller that samples a path
+    /// must not step over them. Empty if the motion is not a table.
     virtual std::vector<double> row_times() const { return {}; }
 };
 
@@ -56,16 +56,16 @@ MotionPointer<D> rotation(const Point<D>& axis, const Point<D>& centre, double r
 template<int D>
 MotionPointer<D> translation(const Point<D>& velocity);
 
-/// A point x0 at time `start` is at centre + (1 + rate (t - start)) (x0 - centre) at time t.
-/// velocity() and map() throw GeometryError at times when the factor is not positive: all points have met
-/// there.
+/// Scaling: a point x0 at time `start` is at centre + (1 + rate (t - start)) (x0 - centre) at time t.
+/// velocity() and map() throw GeometryError at times at which the factor is not positive: all points coincide
+/// when it is zero.
 template<int D>
 MotionPointer<D> expansion(const Point<D>& centre, double rate, double start);
 
 /// One formula per component of the velocity, in x, y, (z,) t, `pi` and the named constants, in the language
 /// of muParser (https://beltoforion.de/en/muparser/features.php). Compiled once per thread that evaluates.
-/// Throws UsageError, quoting the formula, for anything that is not one plain expression; velocity() throws
-/// GeometryError naming formula, point and time when a value is not finite.
+/// Throws UsageError, quoting the formula, if it is not one plain expression; velocity() throws GeometryError
+/// naming formula, point and time if a value is not finite.
 template<int D>
 MotionPointer<D> formula_velocity(const std::array<std::string, D>& formulas,
                                   const std::map<std::string, double>& constants = {});
@@ -77,20 +77,20 @@ using VelocityOfPoint = std::function<Point<D>(const Point<D>& x, double t)>;
 template<int D>
 using VelocityOfPoints = std::function<void(std::span<const Point<D>> x, double t, std::span<Point<D>> v)>;
 
-/// The velocity field of the caller's function, which must be callable from several threads at once and give
-/// the same values however the points are divided among calls. What it throws comes through; where its value
-/// is not finite, velocity() throws GeometryError naming the point and the time. Throws UsageError for no
-/// function.
+/// The velocity field of the caller's function. Needs: callable from several threads at once, with the same
+/// values however the points are divided among calls. Its exceptions pass through; if a value is not finite,
+/// velocity() throws GeometryError naming the point and the time. Throws UsageError if the function is empty.
 template<int D>
 MotionPointer<D> velocity_field(VelocityOfPoint<D> velocity);
 template<int D>
 MotionPointer<D> velocity_field(VelocityOfPoints<D> velocity);
 
-/// Motions about moving frames, inner first: a point goes with the first step, that with the second, and so
-/// on. At time t the point that was at x0 at `start` is at M_k(t)( .. M_1(t)(x0)), M_i(t) being what step i
-/// does from `start` to t. So axes and centres are those at `start`; a later step carries the earlier ones
-/// with it. A step may be a sequence. Throws UsageError for no steps, and when a step after the first has no
-/// closed form. There is a closed form when all steps have one. Cost of velocity(): the sum of the steps'.
+/// Composition of motions in moving frames, innermost first: a point moves with the first step, that with the
+/// second, and so on. The point that was at x0 at `start` is at M_k(t)( .. M_1(t)(x0)) at time t, where
+/// M_i(t) maps positions of step i from `start` to t. So axes and centres are those at `start`; a later step
+/// carries the earlier ones with it. A step may be a sequence. Throws UsageError for no steps, or if a step
+/// after the first has no closed form. The result has a closed form if all steps have one. Cost of
+/// velocity(): the sum of the steps'.
 template<int D>
 MotionPointer<D> sequence(std::vector<MotionPointer<D>> steps, double start);
 

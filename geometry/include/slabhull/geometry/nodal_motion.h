@@ -11,15 +11,15 @@
 
 namespace slabhull {
 
-/// How boundary vertices move that are told apart by their tracks: where each of them is at a time, whatever
-/// the space around it does. Immutable; may be called from several threads at once.
+/// Motion of individual boundary vertices, given by track: their positions at a time, independent of the
+/// space around them. Immutable; may be called from several threads at once.
 template<int D>
 class NodalMotion {
 public:
     virtual ~NodalMotion() = default;
 
-    /// x[i] = where track tracks[i] is at time t; the spans are equally long.
-    /// Throws GeometryError naming the track that is not known, or the times that are.
+    /// x[i] = position of track tracks[i] at time t; the spans are equally long. Throws GeometryError naming
+    /// the unknown track, or the range of known times.
     virtual void positions(std::span<const TrackId> tracks, double t, std::span<Point<D>> x) const = 0;
 
     /// As Motion::row_times().
@@ -29,7 +29,7 @@ public:
 template<int D>
 using NodalMotionPointer = std::shared_ptr<const NodalMotion<D>>;
 
-/// Any function of track and time that may be called from several threads at once.
+/// The motion of a function of track and time. Needs: callable from several threads at once.
 template<int D>
 NodalMotionPointer<D> nodal_motion(std::function<Point<D>(TrackId, double)> position);
 

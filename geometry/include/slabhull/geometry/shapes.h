@@ -9,23 +9,23 @@
 
 namespace slabhull {
 
-// Pieces that boundaries of domains are put together from. All facets are outward from the domain. Vertices
-// are shared by construction and numbered so that neighbours in space are mostly close in memory. Arguments
-// that make no sense (not finite, not positive, an empty box) are a UsageError; pieces with more vertices or
-// facets than an Index can count, a LimitError.
+// Pieces of which boundaries of domains are composed. All facets point outward from the domain. Vertices are
+// shared by construction and numbered so that neighbours in space are mostly close in memory. Invalid
+// arguments (not finite, not positive, an empty box) are a UsageError; pieces with more vertices or facets
+// than an Index can count, a LimitError.
 
-/// The outer boundary min <= x <= max, the domain inside. An edge of length l is divided into l / size parts,
-/// rounded up. The squares on the faces are cut in triangles by diagonals of alternating direction.
+/// The outer boundary min <= x <= max, with the domain inside. An edge of length l is divided into l / size
+/// parts, rounded up. The squares on the faces are cut into triangles by diagonals of alternating direction.
 template<int D>
 Surface<D> box_surface(const Point<D>& min, const Point<D>& max, double size, const Patch& patch);
 
 /// A body with the domain outside: an ellipsoid, for D = 2 an ellipse, with its axes along the coordinate
 /// axes, and its vertices on it to rounding. D = 2: `divisions` edges (3 or more) of nearly equal length,
 /// starting at centre + (a, 0). D = 3: a geodesic icosahedron of frequency n = `divisions`, 10 n^2 + 2
-/// vertices and 20 n^2 triangles, whose vertices u on the unit sphere are moved to centre + A w / |w| with w
-/// = A^(-1/2) u, A = diag(semi_axes). For semi-axes (1, 3, 2) this stretches triangles by 1.73 at most and
-/// spacings differ by a factor of 1.84, against 3 and 3 with x = A u. Bodies with a ratio of axes above 5 or
-/// so get uneven triangles this way, too.
+/// vertices and 20 n^2 triangles. A vertex u on the unit sphere is mapped to centre + A w / |w|, w = A^(-1/2)
+/// u, A = diag(semi_axes). For semi-axes (1, 3, 2) this stretches triangles by 1.73 at most and spacings
+/// differ by a factor of 1.84, against 3 and 3 with x = A u. Ratios of axes above 5 or so still give uneven
+/// triangles.
 template<int D>
 Surface<D> ellipsoid_body(const Point<D>& centre, const Point<D>& semi_axes, int divisions,
                           const Patch& patch);

@@ -11,7 +11,7 @@
 
 namespace slabhull {
 
-/// How fast the spacing grows away from the boundary, and where it stops.
+/// How fast the spacing grows away from the boundary, and its maximum.
 struct Grading {
     double growth = 0.3; ///< increase of the spacing per unit of distance
     double largest = std::numeric_limits<double>::infinity();
@@ -20,25 +20,25 @@ struct Grading {
 /// Wanted spacing h(x) inside a domain, from the spacing of its boundary:
 /// h(x) = min(largest, min over boundary points y of h_y + growth |x - y|).
 ///
-/// A tree of boxes (quadtree, octree), each about as large as the spacing in it, names for each leaf the one
-/// boundary point that counts at its centre. So a value is never below h(x), at most `tolerance` times h(x)
-/// above it (in practice a few per cent), and equal to it where one boundary point rules a whole leaf.
-/// Outside the box of the boundary points, the leaf nearest to x answers. Cost: building is near-linear in
-/// the number of boxes; a query is a descent of the tree.
+/// A tree of boxes (quadtree, octree), each about as large as the spacing in it, stores in each leaf the
+/// boundary point that gives the minimum at its centre. So a value is never below h(x), at most `tolerance`
+/// times h(x) above it (in practice a few per cent), and equal to it where one boundary point gives the
+/// minimum on a whole leaf. Outside the box of the boundary points, the leaf nearest to x is used. Cost:
+/// building is near-linear in the number of boxes; a query is a descent of the tree.
 template<int D>
 class SizeField {
 public:
     /// Largest relative excess over h(x) in the box of the boundary points.
     static constexpr double tolerance = 0.5;
 
-    /// `spacing` is that of each point, positive. Without points h is `largest` everywhere.
+    /// `spacing`: one per point, positive. Without points h is `largest` everywhere.
     SizeField(std::span<const Point<D>> points, std::span<const double> spacing, const Grading& grading);
 
     double operator()(const Point<D>& x) const;
 
     std::size_t box_count() const { return boxes_.size(); }
 
-    /// The integral of h^-D over the box of the points: how many cubes of the wanted size fill it.
+    /// The integral of h^-D over the box of the points: the number of cubes of the wanted size that fill it.
     double cube_count() const;
 
 private:
@@ -49,7 +49,7 @@ private:
     };
     struct Box {
         Index children = no_index; ///< the first of 2^D in a row, or no_index for a leaf
-        Index source = no_index;   ///< what rules a leaf; no_index: `largest` does
+        Index source = no_index;   ///< source of a leaf's spacing; no_index: `largest`
     };
     class Builder;
 
