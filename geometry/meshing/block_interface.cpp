@@ -16,14 +16,15 @@ namespace slabhull {
 
 namespace {
 
-/// Smallest angle of the planar triangles: what the refinement reaches nearly always.
+/// Smallest angle wanted of the planar triangles: the refinement nearly always reaches it.
 constexpr double interface_angle = 30;
-/// Least length of an edge's projection, as part of the edge.
+/// Least length of an edge's projection, as a fraction of the edge.
 constexpr double least_projection = 1.0 / 3;
-/// Rounds of averaging: heights of the rim that alternate fade within an edge or two, others slowly.
+/// Rounds of averaging. Alternating heights of the rim fade within an edge or two, smooth ones farther
+/// inside.
 constexpr int rounds = 100;
 
-/// Curves in the plane, and the vertex of the boundary that each of their points is.
+/// Closed curves in the plane, and the boundary vertex of each of their points.
 struct Projection {
     Surface<2> curves;
     std::vector<Index> vertex;
@@ -52,8 +53,8 @@ Projection project(const Array<Point<3>>& points, const Array<Facet<2>>& rim, co
     return result;
 }
 
-/// The other vertices that share an edge with each vertex: those of v are other[first[v]] .. other[first[v +
-/// 1]]. An edge inside counts twice.
+/// The neighbours of each vertex along edges: those of v are other[first[v]] .. other[first[v + 1]]. An inner
+/// edge counts twice.
 struct VertexNeighbors {
     std::vector<std::size_t> first;
     std::vector<Index> other;
@@ -81,7 +82,7 @@ VertexNeighbors neighbors_of_vertices(const CapMesh<2>& mesh) {
     return lists;
 }
 
-/// Heights that are given for the first few vertices and average those of the neighbours at all others.
+/// Heights: given for the first few vertices, the average of the neighbours' at all others.
 std::vector<double> smooth_heights(const CapMesh<2>& mesh, std::vector<double> given) {
     const VertexNeighbors lists = neighbors_of_vertices(mesh);
     const std::size_t fixed = given.size();

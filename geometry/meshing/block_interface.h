@@ -10,15 +10,15 @@ namespace slabhull {
 
 /// A triangulated surface across a domain, between closed curves of edges of its boundary.
 struct BlockInterface {
-    Array<Point<3>> points; ///< those that it adds
-    /// With normals along the plane's. Vertices below `fixed` are the boundary's, the others fixed + a point.
+    Array<Point<3>> points; ///< new points, not the boundary's
+    /// Normals along the plane's. Vertices below `fixed` are the boundary's; fixed + i is points[i].
     Array<Facet<3>> facets;
 };
 
-/// Spans the curves that `rim` consists of: a planar mesh of the wanted spacing, by the planar mesher,
-/// between the curves' projections on the plane, then lifted so that it meets the curves and is smooth
-/// elsewhere. Edges of the rim are never split. Throws GeometryError when the projections cross or shrink an
-/// edge to less than a third.
+/// Spans the closed curves of `rim` by a surface: the planar mesher fills the curves' projections on the
+/// plane with the wanted spacing; then the mesh is lifted so that it meets the curves and is smooth
+/// elsewhere. Edges of the rim are not split. Throws GeometryError if the projections cross or shrink an edge
+/// to less than a third.
 BlockInterface span_curves(const Array<Point<3>>& points, const Array<Facet<2>>& rim, const PlaneFrame& plane,
                            const SizeField<3>& size, double growth);
 

@@ -23,11 +23,11 @@ namespace slabhull {
 
 namespace {
 
-/// Bytes for each cell: in the mesher's process, and here while the blocks come in.
+/// Bytes per cell: in the mesher's process, and here while the blocks are received.
 constexpr double tetgen_bytes = 220;
 constexpr double hxt_bytes = 280;
 constexpr double own_bytes = 100;
-/// Part of the memory that is free which the meshing may use.
+/// Fraction of the free memory that meshing may use.
 constexpr double usable_memory = 0.85;
 
 CapMesh<3> fill(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
@@ -36,13 +36,13 @@ CapMesh<3> fill(const Boundary<3>& boundary, const Surface<3>& surface, const Si
                                               : fill_with_tetgen(boundary, surface, size, options);
 }
 
-/// What meshing needs with so many blocks, so many of them at once.
+/// Memory for meshing in so many blocks, `at_once` of them at the same time.
 double bytes_for(SolidMesher mesher, double cells, int blocks, int at_once) {
     const double mesher_bytes = mesher == SolidMesher::hxt ? hxt_bytes : tetgen_bytes;
     return cells * (own_bytes + mesher_bytes * std::min(1.0, static_cast<double>(at_once) / blocks));
 }
 
-/// A facet of a cell that has no neighbour in its block.
+/// A facet of a cell without a neighbour in its own block.
 struct OpenFacet {
     Facet<3> vertices; ///< ascending
     Index cell;
@@ -50,7 +50,7 @@ struct OpenFacet {
     friend auto operator<=>(const OpenFacet&, const OpenFacet&) = default;
 };
 
-/// Puts the meshes of blocks together, one after the other.
+/// Joins the meshes of blocks, one after the other.
 class BlockJoiner {
 public:
     BlockJoiner(const DomainBlocks& blocks, std::size_t expected_cells) {
@@ -99,7 +99,7 @@ void BlockJoiner::add(const BlockSurface& block, const CapMesh<3>& part) {
     }
 }
 
-/// Joins the blocks where they have a facet in common.
+/// Joins blocks across their common facets.
 CapMesh<3> BlockJoiner::finish(std::size_t boundary_facets) {
     std::sort(open_.begin(), open_.end());
     std::size_t alone = open_.size();
@@ -167,7 +167,7 @@ CapMesh<3> mesh_in_blocks(const Boundary<3>& boundary, const Surface<3>& surface
     const double memory = usable_memory * static_cast<double>(available_memory());
     if (options.blocks == 0 &&
         bytes_for(options.mesher, cells_per_cube<3> * size.cube_count(), 1, 1) <= memory) {
-        return fill(boundary, surface, size, options); // even if the domain were the box around it
+        return fill(boundary, surface, size, options); // would fit even if the domain filled its bounding box
     }
     std::vector<LoadSample> load = sample_load(surface, size);
     const double cells = cells_per_cube<3> * cubes_in(load);

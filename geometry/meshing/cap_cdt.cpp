@@ -18,7 +18,7 @@ namespace slabhull {
 
 namespace {
 
-/// A tiny edge and no growth would ask for triangles until the memory is full.
+/// Without this check, a tiny edge without growth would ask for triangles until memory is full.
 void require_countable(const SizeField<2>& field) {
     const double wanted = field.cube_count() * 4 / std::numbers::sqrt3;
     if (!(wanted < static_cast<double>(no_index))) {

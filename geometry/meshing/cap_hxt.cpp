@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // HXT (C. Marot, J. Pellerin, J.-F. Remacle, IJNME 117(9), 2019), the Delaunay mesher in Gmsh, for 3D caps.
-// With two threads its meshes are broken now and then, so it gets one. Gmsh is opened in the child process
-// that meshes: it brings ninety libraries along, and keeps global state.
+// With two threads its meshes are sometimes broken, so it gets one. Gmsh is opened in the child process that
+// meshes, since it loads ninety libraries and keeps global state.
 #include "geometry/meshing/solid_mesher.h"
 
 #include "geometry/embedding/components.h"
@@ -21,7 +21,7 @@ namespace slabhull {
 
 namespace {
 
-/// Statuses that the child sends.
+/// Status codes of the child.
 constexpr std::int32_t no_library = 1;
 constexpr std::int32_t gmsh_failed = 2;
 
@@ -33,7 +33,7 @@ struct GmshFailed {
     std::string said;
 };
 
-/// Gmsh's C functions by name; the last argument of each, an error, is checked here.
+/// Gmsh's C functions by name; their last argument, an error code, is checked here.
 class Gmsh {
 public:
     explicit Gmsh(void* library) : library_{library} {}
@@ -74,7 +74,7 @@ private:
     void* library_;
 };
 
-/// The mean edge of HXT's cells is longer than the spacing it is asked for by this factor.
+/// Ratio of the mean edge of HXT's cells to the requested spacing.
 constexpr double stretch = 1.24;
 
 double wanted_size(int, int, double x, double y, double z, void* field) {
@@ -94,13 +94,13 @@ void set_options(const Gmsh& gmsh, const SizeField<3>& size) {
                                                       const_cast<SizeField<3>*>(&size));
 }
 
-/// The components that bound each connected part of the domain, the outer one first.
+/// The boundary components of each connected part of the domain, the outer one first.
 using Solids = std::vector<std::vector<Index>>;
 
 Solids find_solids(const Boundary<3>& boundary, const Surface<3>& surface) {
     const std::vector<double> enclosed = enclosed_by_components(boundary, surface);
     Solids solids;
-    std::vector<Index> outer; // by size, ascending: the first one around a body is its own
+    std::vector<Index> outer; // by size, ascending: the first one around a body bounds its part
     for (Index part = 0; part < enclosed.size(); ++part) {
         if (enclosed[part] > 0) {
             outer.push_back(part);
@@ -124,8 +124,8 @@ Solids find_solids(const Boundary<3>& boundary, const Surface<3>& surface) {
     return solids;
 }
 
-/// The surface in Gmsh's terms: its nodes, ascending from component to component. (It takes the last node
-/// added for the one with the largest tag, and would give tags twice.)
+/// The surface as a Gmsh model. Nodes are added in ascending order over all components: Gmsh takes the last
+/// node added for the one with the largest tag, and would otherwise reuse tags.
 class GmshDomain {
 public:
     GmshDomain(const Gmsh& gmsh, const Boundary<3>& boundary, const Surface<3>& surface, const Solids& solids)
@@ -149,12 +149,12 @@ public:
         gmsh.call<decltype(gmshModelGeoSynchronize)>("gmshModelGeoSynchronize");
     }
 
-    /// Its points first, then those inside, and the cells.
+    /// The mesh: the surface's points first, then those inside, and the cells.
     CapMesh<3> result() const;
 
 private:
     int add_component(int entity, const std::vector<Index>& facets);
-    /// Tags and coordinates of the nodes inside; sets their numbers.
+    /// Appends the inner points, and sets the number of each of their tags.
     void take_inside(CapMesh<3>& mesh, std::vector<Index>& number) const;
 
     const Gmsh& gmsh_;
@@ -163,7 +163,7 @@ private:
     std::size_t last_ = 0;
 };
 
-/// One closed component as a discrete entity, and a loop around the volume or in it.
+/// Adds a closed component as a discrete entity, and a surface loop, the outer or an inner one of a volume.
 int GmshDomain::add_component(int entity, const std::vector<Index>& facets) {
     std::vector<std::size_t> nodes;
     std::vector<double> coordinates;
@@ -237,14 +237,14 @@ void send_failure(const Send& send, std::int32_t status, const std::string& said
 
 void mesh_and_send(const Boundary<3>& boundary, const Surface<3>& surface, const Solids& solids,
                    const SizeField<3>& size, const Send& send) {
-    // In a world of its own: Gmsh has parts of TetGen inside, and would call those of ours, and crash.
+    // In its own namespace: Gmsh contains parts of TetGen, would call ours instead, and crash.
     void* library = dlmopen(LM_ID_NEWLM, SLABHULL_GMSH_SONAME, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) {
         return send_failure(send, no_library, dlerror());
     }
     try {
         const Gmsh gmsh{library};
-        std::string program = "slabhull"; // Gmsh reads its name
+        std::string program = "slabhull"; // Gmsh reads the program's name
         char* arguments = program.data();
         gmsh.call<decltype(gmshInitialize)>("gmshInitialize", 1, &arguments, 0);
         set_options(gmsh, size);

@@ -26,9 +26,9 @@ namespace slabhull {
 
 namespace {
 
-/// What a cell takes at least while caps are made and joined to a hull.
+/// Least memory per cell while caps are made and joined to a hull.
 constexpr double bytes_per_cell = 100;
-/// TetGen's tolerance, by the diagonal of the box around all points.
+/// TetGen's tolerance, relative to the diagonal of the bounding box.
 constexpr double tetgen_tolerance = 1e-8;
 
 double diagonal_of(std::span<const Point<3>> points) {
@@ -39,7 +39,7 @@ double diagonal_of(std::span<const Point<3>> points) {
     return distance(box.low, box.high);
 }
 
-/// A facet that has the point.
+/// A facet at the point.
 Index facet_at(const Surface<3>& surface, Index v) {
     const auto found = std::find_if(surface.facets.begin(), surface.facets.end(), [v](const Facet<3>& facet) {
         return std::find(facet.begin(), facet.end(), v) != facet.end();

@@ -5,18 +5,18 @@
 
 namespace slabhull {
 
-/// Cells of a cap for each cube (square) of the wanted spacing.
+/// Cells of a cap per cube (square) of the wanted spacing.
 template<int D>
 inline constexpr double cells_per_cube = D == 3 ? 7.2 : 2.3;
 
-/// Throws LimitError, with the figures, where cells no longer than `largest` throughout the domain are more
-/// than indices or the memory that is free can hold, before anything is made of their size. Cost: linear in
+/// Throws LimitError, with the figures, if filling the domain with cells no longer than `largest` needs more
+/// cells than indices can count or free memory can hold; nothing of that size is allocated. Cost: linear in
 /// the facets.
 template<int D>
 void require_attainable(const Surface<D>& surface, double largest);
 
-/// Throws GeometryError naming two points of the boundary that TetGen would take for one, as nearer than 1e-8
-/// of the diagonal of the box around all, with their patches. Cost: that of sorting the points.
+/// Throws GeometryError naming two points of the boundary, with their patches, that TetGen would merge:
+/// nearer than 1e-8 of the diagonal of the bounding box. Cost: that of sorting the points.
 void require_resolvable(const Surface<3>& surface);
 
 } // namespace slabhull

@@ -47,10 +47,10 @@ struct OrientedFacet {
 template<int D>
 using OrientedFacets = std::vector<OrientedFacet<D>>;
 
-/// What a pass over some cells found; numbers of cells and facets in ascending order.
+/// Result of a pass over some cells; numbers of cells and facets in ascending order.
 template<int D>
 struct CellFindings {
-    std::vector<Index> unsound; ///< refer to points or cells that do not exist
+    std::vector<Index> unsound; ///< refer to points or cells out of range
     std::vector<Index> inverted;
     std::vector<Index> mismatched; ///< a neighbour does not lie across the shared facet
     OrientedFacets<D> boundary;

@@ -52,11 +52,11 @@ Displacements<D> displacements(std::span<const Point<D>> points, std::span<const
     return result;
 }
 
-/// The affine displacement x -> A x + b nearest to the given ones, by least squares.
+/// The affine displacement x -> A x + b that is the least-squares fit to the given ones.
 template<int D>
 AffineMap<D> nearest_affine(std::span<const Point<D>> points, const Displacements<D>& given) {
     using Row = Eigen::Matrix<double, D + 1, 1>;
-    const Point<D> origin = points[given.vertices.front()]; // near the others: fewer digits cancel
+    const Point<D> origin = points[given.vertices.front()]; // near the others: less cancellation
     Eigen::Matrix<double, D + 1, D + 1> left = Eigen::Matrix<double, D + 1, D + 1>::Zero();
     Eigen::Matrix<double, D + 1, D> right = Eigen::Matrix<double, D + 1, D>::Zero();
     for (std::size_t b = 0; b < given.vertices.size(); ++b) {
@@ -130,15 +130,16 @@ public:
     }
 
 private:
-    /// What the affine part may leave, relative to the motion: less than single precision can tell.
+    /// Least remainder after the affine part, relative to the motion, that is solved for: below it single
+    /// precision cannot tell.
     static constexpr double smallest_rest = 1e-8;
 
     std::span<const Point<D>> points_;
     std::span<const Simplex<D>> cells_;
     const Displacements<D>& boundary_;
     AffineMap<D> affine_;
-    double unit_;       ///< the largest displacement of the boundary
-    Array<Lanes> rest_; ///< displacement but for the affine part, in this unit
+    double unit_;       ///< largest displacement of the boundary
+    Array<Lanes> rest_; ///< displacement without the affine part, in this unit
 };
 
 void require_targets(std::size_t points, std::span<const Index> boundary, std::size_t targets) {

@@ -11,13 +11,13 @@ namespace slabhull {
 
 namespace {
 
-/// An edge is long when it exceeds this many times the spacing where the third vertex of its triangle would
-/// be.
+/// An edge is long if it exceeds this multiple of the spacing at the third vertex of its ideal triangle.
 constexpr double long_edge = 2;
-/// Spacing wanted at the middle of a long edge, as part of its length, and its decrease per unit of distance.
+/// Wanted spacing at the middle of a long edge, as a fraction of its length, and its decrease per unit of
+/// distance.
 constexpr double middle_size = 0.5;
 constexpr double decline = 0.4;
-/// Increase of the spacing per unit of distance that still leaves good angles.
+/// Increase of the spacing per unit of distance that still allows good angles.
 constexpr double steepest_growth = 0.5;
 
 double distance(const Point<2>& a, const Point<2>& b) {

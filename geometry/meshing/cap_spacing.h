@@ -12,14 +12,14 @@
 
 namespace slabhull {
 
-/// Spacing for the triangles of a planar domain whose boundary edges must not be split: what is wanted,
-/// raised around boundary edges that are much longer than it. A triangle on such an edge is as large as the
-/// edge, whatever is wanted there, and only neighbours that grow to meet it have good angles.
+/// Spacing for the triangles of a planar domain whose boundary edges must not be split: the wanted spacing,
+/// raised around boundary edges that are much longer. A triangle on such an edge is as large as the edge, and
+/// has neighbours with good angles only if their size grows towards it.
 class CapSpacing {
 public:
     using Wanted = std::function<double(const Point<2>&)>;
 
-    /// `growth` is how fast the wanted spacing grows at most per unit of distance.
+    /// `growth`: largest increase of the wanted spacing per unit of distance.
     CapSpacing(const Surface<2>& boundary, Wanted wanted, double growth);
 
     double operator()(const Point<2>& x) const {
@@ -38,8 +38,8 @@ private:
 
     Wanted wanted_;
     std::vector<LongEdge> long_edges_;
-    std::optional<BoxTree<2>> reach_;      ///< where each long edge counts
-    std::optional<SizeField<2>> steepest_; ///< what short edges nearby allow
+    std::optional<BoxTree<2>> reach_;      ///< region of influence of each long edge
+    std::optional<SizeField<2>> steepest_; ///< upper bound, due to short edges nearby
 };
 
 } // namespace slabhull

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // TetGen 1.5 (H. Si, ACM TOMS 41(2), 2015) as the mesher of 3D caps. It crashes on surfaces that cross
-// themselves, prints, keeps global state and throws bare numbers: so it runs in a child process, and what it
-// sends is verified.
+// themselves, prints, keeps global state and throws bare numbers. So it runs in a child process, and its
+// result is verified.
 #include "geometry/meshing/solid_mesher.h"
 
 #include "geometry/meshing/hole_seeds.h"
@@ -20,12 +20,12 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::int32_t out_of_memory = 1; // TetGen's own number for it
+constexpr std::int32_t out_of_memory = 1; // TetGen's own number
 
 // --- In the child
 // ---------------------------------------------------------------------------------------------
 
-/// What TetGen's callback, a bare function, looks at.
+/// Global, since TetGen's callback is a plain function.
 const SizeField<3>* wanted_size = nullptr;
 
 double squared_distance(const REAL* p, const REAL* q) {
@@ -35,9 +35,9 @@ double squared_distance(const REAL* p, const REAL* q) {
     return x * x + y * y + z * z;
 }
 
-/// Whether a tetrahedron is to be split for its size. TetGen hands in a volume of 0, so look at the corners.
-/// (Its own way, a size per boundary vertex, interpolates between opposite walls and knows neither growth nor
-/// a largest size.)
+/// Whether to split a tetrahedron for its size. TetGen passes a volume of 0, so use the corners. (Its own
+/// method, a size per boundary vertex, interpolates between opposite walls and knows neither growth nor a
+/// largest size.)
 bool too_large(REAL* a, REAL* b, REAL* c, REAL* d, REAL*, REAL) {
     const std::array<const REAL*, 4> corners{a, b, c, d};
     Point<3> centroid{};
@@ -54,7 +54,7 @@ bool too_large(REAL* a, REAL* b, REAL* c, REAL* d, REAL*, REAL) {
     return longest > bound * bound;
 }
 
-/// The surface in TetGen's terms. It is never destroyed, for the child just ends: its lists need not come
+/// The surface as TetGen's input. It is never destroyed, since the child just ends: its lists need not come
 /// from `new`.
 struct TetgenInput {
     TetgenInput(const Surface<3>& surface, const std::vector<Point<3>>& holes);
@@ -83,7 +83,7 @@ TetgenInput::TetgenInput(const Surface<3>& surface, const std::vector<Point<3>>&
     plc.tetunsuitable = too_large;
 }
 
-/// TetGen's lists are ours bit for bit: its cells are positively oriented too, neighbour i is across from
+/// TetGen's lists equal ours bit for bit: its cells are positively oriented, neighbour i is across from
 /// corner i, and its -1 for no neighbour has the bits of no_index.
 void send_mesh(const Send& send, const tetgenio& mesh) {
     static_assert(sizeof(int) == sizeof(Index) && sizeof(Point<3>) == 3 * sizeof(REAL));
@@ -95,8 +95,8 @@ void send_mesh(const Send& send, const tetgenio& mesh) {
     send(mesh.neighborlist, list);
 }
 
-/// p: a boundary is given; Y: keep it; n: neighbours; Q: quiet; q: bounds on radius-edge ratio and dihedral
-/// angle.
+/// p: a boundary is given; Y: keep it; n: return neighbours; Q: quiet; q: bounds on radius-edge ratio and
+/// dihedral angle.
 std::string switches(const CapOptions& options) {
     return fmt::format("pYnQq{:.4f}/{:.4f}", options.radius_edge, options.min_dihedral);
 }

@@ -9,8 +9,8 @@ namespace slabhull::detail {
 
 namespace {
 
-/// Smaller groups save iterations, but more of them cost more than they save: the factors of a matrix of
-/// 2,000 rows are as large as a hundred times as many rows of the fine one.
+/// Smaller groups save iterations, but cost more than they save: the factors of a matrix of 2,000 rows are as
+/// large as a hundred times as many rows of the fine matrix.
 constexpr std::size_t smallest_group = 100;
 constexpr std::size_t most_groups = 2500;
 constexpr std::size_t groups_per_piece = 128;
@@ -32,7 +32,7 @@ CoarseSpace::CoarseSpace(const Stiffness& matrix)
     factorise();
 }
 
-/// Breadth first through free vertices that are in no group yet.
+/// Breadth first, through free vertices without a group.
 void CoarseSpace::grow_group(Index seed, std::size_t size) {
     const auto group = static_cast<Index>(first_.size() - 1);
     const auto add = [&](Index v) {
@@ -51,8 +51,8 @@ void CoarseSpace::grow_group(Index seed, std::size_t size) {
     first_.push_back(members_.size());
 }
 
-/// Entry (I, J) sums K_ij over the members. Rows of K sum to zero, so a diagonal entry is what leaves the
-/// group, fixed vertices included: a sum without cancellation.
+/// Entry (I, J) sums K_ij over the members of groups I and J. Rows of K sum to zero, so a diagonal entry is
+/// minus the sum of those that leave the group, to fixed vertices, too: computed without cancellation.
 void CoarseSpace::factorise() {
     const std::size_t groups = first_.size() - 1;
     std::vector<Eigen::Triplet<double>> triplets;

@@ -34,12 +34,12 @@ public:
     }
 
 private:
-    /// A lane without anything to do stays where it is.
+    /// Zero for a lane that has converged exactly, so that it stays unchanged.
     static Lanes ratio(const Sums& a, const Sums& b) {
         return (b > 0).select(a / b, Sums::Zero()).cast<float>();
     }
 
-    /// Sums what body(v) returns over the free vertices.
+    /// Sum of body(v) over the free vertices.
     template<class Body>
     Sums over_free(const Body& body) {
         const auto sum_of = [&](std::size_t begin, std::size_t end, Sums& piece) {
@@ -104,7 +104,7 @@ private:
     CoarseSpace coarse_;
     Array<Lanes> residual_, direction_, image_;
     Sums squares_; ///< of the residual
-    Sums product_; ///< of the residual and the preconditioned one
+    Sums product_; ///< of the residual and the preconditioned residual
 };
 
 } // namespace

@@ -21,7 +21,7 @@ namespace slabhull {
 
 namespace {
 
-/// What is known of a triangle: the side of the boundary it lies on, and the edge that says so.
+/// The side of the boundary that a triangle is on, and the edge from which that was found.
 struct Mark {
     enum class Side { unknown, inside, outside } side = Side::unknown;
     Index edge = no_index;
@@ -48,7 +48,7 @@ Entity vertex_entity(Index number) {
     return {"vertex", number, ""};
 }
 
-/// A fixed "random" number for each number (the finaliser of splitmix64).
+/// A fixed pseudo-random number for each number (the finaliser of splitmix64).
 std::uint64_t scramble(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15U;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -107,7 +107,7 @@ private:
         }
     }
 
-    /// Every vertex must be entered once and left once.
+    /// Every vertex must be the end of one edge and the start of one.
     void check_curves() const {
         std::vector<std::array<Index, 2>> uses(surface_.points.size(), {0, 0});
         for (const Facet<2>& edge : surface_.facets) {
@@ -131,7 +131,7 @@ private:
             const Point<2>& a = surface_.points[surface_.facets[f][0]];
             const Point<2>& b = surface_.points[surface_.facets[f][1]];
             const double length = std::hypot(a[0] - b[0], a[1] - b[1]);
-            const bool coincident = a == b; // told later, with its vertices
+            const bool coincident = a == b; // reported later, with its vertices
             if (!coincident && !(length > 1 / huge_size && std::hypot(a[0], a[1]) < huge_size)) {
                 throw GeometryError{
                     fmt::format("boundary edge {} at {} is {:.3g} long; lengths and coordinates must be "
@@ -143,8 +143,8 @@ private:
     }
 
     /// In rounds of doubling size, each along a Z curve: near-linear for any order of the curves ("BRIO",
-    /// Amenta, Choi and Rote 2003). CGAL's own spatial sort draws from a generator that remembers earlier
-    /// calls.
+    /// Amenta, Choi and Rote 2003). CGAL's own spatial sort uses a random generator whose state persists
+    /// between calls.
     void insert_points() {
         struct Turn {
             int round;
@@ -210,7 +210,7 @@ private:
         return {vertices_[edge[0]]->point(), vertices_[edge[1]]->point()};
     }
 
-    /// Edge `last` crosses one of those before it.
+    /// Reports that edge `last` crosses an earlier one.
     [[noreturn]] void refuse_crossing(Index last) const {
         Index other = 0;
         const Facet<2>& b = surface_.facets[last];
@@ -241,7 +241,7 @@ private:
             {vertex_entity(touching), edge_entity(facet)}};
     }
 
-    /// Each edge has the domain on its right; what it says of its two triangles spreads up to the next edges.
+    /// Each edge has the domain on its right. The sides of its two triangles spread up to the next edges.
     void mark_sides() {
         for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
             const Cdt::Edge left = left_of(surface_.facets[f]);
@@ -250,7 +250,7 @@ private:
         }
     }
 
-    /// The triangle to the left of an edge, and which of its edges that is.
+    /// The triangle to the left of an edge, and the edge's local number in it.
     Cdt::Edge left_of(const Facet<2>& edge) const {
         Cdt::Face_handle face;
         int side = 0;

@@ -5,11 +5,10 @@
 
 namespace slabhull {
 
-/// The constrained Delaunay triangulation (CGAL) of the domain that closed polygons bound: their points and
-/// nothing else. Which triangles are inside follows from the orientation of the edges, every one of which is
-/// heeded. Throws GeometryError naming edges or vertices: open or inconsistently oriented curves, crossing
-/// edges, coincident points, points on edges, numbers that are not finite. Cost: near-linear for ordinary
-/// curves.
+/// The constrained Delaunay triangulation (CGAL) of the domain bounded by closed polygons; no points are
+/// added. The orientation of the edges tells which triangles are inside; every edge is used. Throws
+/// GeometryError naming edges or vertices: open or inconsistently oriented curves, crossing edges, coincident
+/// points, points on edges, coordinates that are not finite. Cost: near-linear for ordinary curves.
 CapMesh<2> constrained_delaunay(const Surface<2>& surface);
 
 } // namespace slabhull

@@ -42,7 +42,7 @@ bool DelaunayCavity::conflicts(Index cell, const Point<2>& p) const {
     return exact::in_circle(corners_of<2, 2>(mesh_.cells[cell], mesh_.points), p);
 }
 
-/// Whether a cell next to the cavity belongs to it, and remembers.
+/// Whether a cell next to the cavity belongs to it; the answer is cached.
 bool DelaunayCavity::joins(Index cell, const Point<2>& p) {
     if (seen_[cell] >= epoch_) {
         return seen_[cell] == epoch_;
@@ -61,7 +61,7 @@ bool DelaunayCavity::sees_rim(const Point<2>& p) const {
     });
 }
 
-/// Which facet of the cell is the edge that starts, counter-clockwise, at vertex `first`.
+/// Local number of the cell's edge that starts, counter-clockwise, at vertex `first`.
 std::size_t DelaunayCavity::side_of(Index cell, Index first) const {
     const Simplex<2>& c = mesh_.cells[cell];
     return plane::previous(first == c[0] ? 0 : first == c[1] ? 1 : 2);

@@ -11,9 +11,9 @@
 
 namespace slabhull {
 
-/// Insertion of points into a constrained Delaunay triangulation by the method of Bowyer and Watson, in two
-/// steps, so that the result can be judged before anything changes: `dig` finds the triangles that a point
-/// would replace and the edges around them, `fill` joins the point to these.
+/// Insertion of points into a constrained Delaunay triangulation by the method of Bowyer and Watson. It has
+/// two steps, so that the result can be judged before anything changes: `dig` finds the cavity of triangles
+/// that a point would replace and the edges around it, `fill` joins the point to these.
 ///
 ///        +-----+              +-----+
 ///       / \   / \            / \   / \       .
@@ -25,27 +25,27 @@ namespace slabhull {
 /// Edges without a neighbor are the constraints; a cavity never reaches beyond them. Decisions are exact.
 class DelaunayCavity {
 public:
-    /// An edge of the rim, counter-clockwise, and what lies beyond.
+    /// An edge of the rim, counter-clockwise, and the cell outside.
     struct Edge {
         Index from;
         Index to;
         Index beyond;     ///< the cell there, or no_index: a boundary edge
-        std::size_t side; ///< which of its neighbors the cavity is
+        std::size_t side; ///< local number of the cavity among its neighbors
         bool boundary() const { return beyond == no_index; }
     };
 
     /// `mesh` must outlive it, be positively oriented and constrained Delaunay.
     explicit DelaunayCavity(CapMesh<2>& mesh);
 
-    /// False when p does not conflict with `start`, or cannot be joined to all of the rim by straight lines
-    /// inside the domain; then there is no cavity. Needs: finite p.
+    /// Finds the cavity of p. False if p does not conflict with `start`, or cannot be joined to all of the
+    /// rim by straight lines inside the domain. Needs: finite p.
     bool dig(Index start, const Point<2>& p);
 
     std::span<const Edge> rim() const { return rim_; }
     std::span<const Index> cells() const { return cells_; }
 
-    /// Fills the last cavity dug with triangles (from, to, p), one for each edge of the rim and in their
-    /// order: cells() then names these. The first ones take the slots of those replaced; two are new.
+    /// Fills the last cavity dug with triangles (from, to, p), one for each edge of the rim, in that order;
+    /// cells() then names these. They reuse the slots of the triangles replaced; the last two are new.
     void fill(const Point<2>& p);
 
 private:
@@ -57,8 +57,8 @@ private:
 
     CapMesh<2>& mesh_;
     Array<std::uint64_t>
-        seen_; ///< by cell: epoch_ inside, epoch_ + 1 outside, less: not looked at in this cavity
-    Array<Index> starting_; ///< by vertex: the new cell on the edge of the rim that starts there
+        seen_; ///< by cell: epoch_ if inside, epoch_ + 1 if outside, less if not yet visited for this cavity
+    Array<Index> starting_; ///< by vertex: the new cell on the rim's edge that starts there
     std::uint64_t epoch_ = 0;
     std::vector<Index> cells_;
     std::vector<Edge> rim_;

@@ -24,46 +24,47 @@ using plane::next;
 using plane::previous;
 using plane::Shape;
 
-/// A triangle is small enough when its circumradius is at most this times the wanted spacing. An equilateral
-/// one with the wanted edges has 0.577; with this bound there are about as many triangles as if all were
+/// A triangle is small enough if its circumradius is at most this multiple of the wanted spacing. An
+/// equilateral one with the wanted edges has 0.577; this bound gives about as many triangles as if all were
 /// equilateral.
 constexpr double largest_radius = 0.83;
-/// An edge up to this times the wanted spacing is long enough to set points in front of it.
+/// An edge up to this multiple of the wanted spacing may have points placed in front of it.
 constexpr double front_edge = 1.2;
-/// A point in front of an edge forms a triangle this high, as a multiple of half the edge, whatever the
-/// spacing.
+/// Least height of a triangle formed by a point in front of an edge, as a multiple of half the edge, whatever
+/// the spacing.
 constexpr double lowest = 1.2;
 constexpr double highest = 3.2;
-/// Points in front of an edge keep this distance from all others, as a multiple of the wanted spacing: where
-/// two fronts meet, a circumcentre fits better.
+/// Least distance of a point in front of an edge from all others, as a multiple of the wanted spacing. Nearer
+/// to others, where two fronts meet, a circumcentre fits better.
 constexpr double elbow_room = 0.7;
-/// The same for points that mend angles, unless the shortest edge of the triangle is shorter anyway.
+/// The same for points that improve angles, unless the shortest edge of the triangle is shorter anyway.
 constexpr double mending_room = 0.5;
 constexpr double rescue_room = 0.3;
-/// Angles are mended up to this many degrees above the wanted one: it costs next to nothing.
+/// Angles are improved up to this many degrees above the wanted one, at next to no cost.
 constexpr double ambition = 5;
-/// Up to this angle a circumcentre is farther from all points than the shortest edge of its triangle is long,
-/// so that mending comes to an end.
+/// Up to this angle, a circumcentre's distance from all points exceeds the shortest edge of its triangle, so
+/// that the refinement terminates.
 constexpr double ending = 30;
-/// An off-centre makes the angle opposite to the shortest edge this times the wanted one.
+/// An off-centre makes the angle opposite to the shortest edge this multiple of the wanted one.
 constexpr double angle_reserve = 1.15;
-/// A rescue must make the least sine of an angle larger by this factor.
+/// A rescue must increase the least sine of an angle by this factor.
 constexpr double worthwhile = 1.4;
 /// Heights tried in a rescue, as multiples of half the edge: angles at the edge of 27, 40, 60 and 70 degrees.
 constexpr std::array<double, 4> rescue_heights{0.5, 0.84, 1.73, 2.75};
-/// How often one vertex may be moved, and by how much that must make the least sine around it larger.
+/// Largest number of moves of one vertex, and the factor by which each must increase the least sine around
+/// it.
 constexpr unsigned char most_moves = 8;
 constexpr double worth_moving = 1.02;
-/// Steps tried when moving a vertex, as parts of the distance to its nearest neighbour.
+/// Steps tried when moving a vertex, as fractions of the distance to its nearest neighbour.
 constexpr std::array<double, 3> move_steps{0.4, 0.15, 0.05};
 constexpr int move_directions = 8;
-/// Square of the cosine of the largest angle, 120 degrees, that a point may have over a boundary edge.
+/// Square of the cosine of the largest angle, 120 degrees, of a point over a boundary edge.
 constexpr double lens = 0.25;
 
 double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
-/// Angle below which a triangle is mended, in degrees.
+/// Angle below which a triangle is improved, in degrees.
 double aim(double min_angle) {
     return std::min(min_angle + ambition, ending);
 }
@@ -103,7 +104,8 @@ public:
     }
 
 private:
-    /// First in, first out: the front moves in layers. Entries are dropped when their cell has been replaced.
+    /// A first-in, first-out queue, so that the front advances in layers. Entries of replaced cells are
+    /// dropped.
     struct Queue {
         struct Entry {
             Index cell;
@@ -146,12 +148,12 @@ private:
         if (radius <= largest_radius * (spacing_[c[0]] + spacing_[c[1]] + spacing_[c[2]]) / 3) {
             return false;
         }
-        // Well inside a large triangle the spacing may be larger than at its corners.
+        // In the middle of a large triangle the spacing may be larger than at its corners.
         return radius > largest_radius *
                             field_({(p[0][0] + p[1][0] + p[2][0]) / 3, (p[0][1] + p[1][1] + p[2][1]) / 3});
     }
 
-    /// Wanted spacing on the shortest edge.
+    /// Mean wanted spacing at the shortest edge.
     double spacing_of_base(Index cell, const Shape& shape) const {
         const Simplex<2>& c = mesh_.cells[cell];
         return (spacing_[c[next(shape.apex)]] + spacing_[c[previous(shape.apex)]]) / 2;
@@ -181,7 +183,7 @@ private:
         }
     }
 
-    /// Height over an edge at which the new edges get the wanted length.
+    /// Height over an edge at which new edges have the wanted length.
     double height_of_front(const Bisector& above, double at_edge) const {
         const double half = above.half_length();
         const double wanted = (at_edge + field_(above.at(at_edge * std::numbers::sqrt3 / 2))) / 2;
@@ -204,7 +206,7 @@ private:
         }
     }
 
-    /// Inserts p unless it is nearer to others than `room` times the spacing there and than `enough`, or too
+    /// Inserts p, unless it is nearer to others than both `room` times the spacing there and `enough`, or too
     /// near to a boundary edge. A circumcentre needs no room: it is as far from all others as from its own
     /// corners.
     bool insert(Index cell, const Point<2>& p, double room, double enough) {
@@ -227,8 +229,8 @@ private:
         return true;
     }
 
-    /// Whether p is too near to a boundary edge: inside its diametral circle, in a triangle that is flat or
-    /// skinny.
+    /// Whether p is too near to a boundary edge: inside its diametral circle, and in a flat or skinny
+    /// triangle.
     bool encroaches(const Point<2>& p, const Point<2>& a, const Point<2>& b) const {
         const Point<2> to_a = minus(a, p);
         const Point<2> to_b = minus(b, p);
@@ -251,7 +253,7 @@ private:
         }
     }
 
-    /// Moves a vertex of a skinny triangle to where the angles around it are better.
+    /// Moves a vertex of a skinny triangle if that improves the angles around it.
     bool relocate(Index cell) {
         for (const Index v : Simplex<2>{mesh_.cells[cell]}) {
             if (v >= given_ && moves_[v - given_] < most_moves && star_.gather(cell, v) &&
@@ -298,8 +300,8 @@ private:
         return true;
     }
 
-    /// For a skinny triangle that boundary edges protect: the best of a few places over its edges, on both
-    /// sides, if that is clearly better than what there is.
+    /// For a skinny triangle protected by boundary edges: inserts the best of a few points over its edges, on
+    /// both sides, if that is a clear improvement.
     void rescue(Index cell) {
         const Corners p = corners(cell);
         const Shape shape{p};
@@ -328,7 +330,7 @@ private:
         }
     }
 
-    /// Least sine of an angle after inserting p, or 0 when that is not worthwhile.
+    /// Least sine of an angle after inserting p; 0 if that is not worthwhile.
     double gain(Index cell, const Point<2>& p, double enough) {
         if (!cavity_.dig(cell, p)) {
             return 0;
@@ -358,14 +360,14 @@ private:
     double aimed_sine_;
     double slenderest_; ///< height of an off-centre, as a multiple of half the edge
 
-    Array<double> spacing_;      ///< wanted, by vertex
-    Array<Index> version_;       ///< by cell: how often it has been replaced
-    Array<unsigned char> moves_; ///< of each new vertex, so far
+    Array<double> spacing_;      ///< wanted spacing, by vertex
+    Array<Index> version_;       ///< by cell: number of times it was replaced
+    Array<unsigned char> moves_; ///< number of moves of each new vertex
     Queue front_;                ///< too large, on an edge of about the wanted length
     Queue coarse_;               ///< too large, all edges too long
     Queue skinny_;               ///< small enough, an angle too small
-    Queue stubborn_;             ///< the boundary forbids what would mend it
-    Queue last_;                 ///< no more points help
+    Queue stubborn_;             ///< boundary edges forbid the usual points
+    Queue last_;                 ///< inserting points does not help
 };
 
 } // namespace

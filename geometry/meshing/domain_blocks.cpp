@@ -23,14 +23,14 @@ namespace slabhull {
 
 namespace {
 
-/// How far a block's load may be from its share, as part of that: planes nearer to it come first, those that
-/// graze the boundary last.
+/// Allowed deviation of a block's load from its share, relative to that. Planes along which boundary facets
+/// lie are tried last, after all deviations.
 constexpr std::array<double, 4> imbalances{0.01, 0.03, 0.1, 0.3};
-/// Planes looked at for each direction, and tried of them all.
+/// Planes considered per direction, and planes tried over all directions.
 constexpr std::size_t offsets = 7;
 constexpr std::size_t tries = 8;
-/// Facets within so many spacings of a plane, the cosine of the angle between the normals above this, lie
-/// along it: they would make thin wedges. What one counts in triangles of the interface.
+/// A facet lies along a plane if it is within `near_plane` spacings and the cosine between the normals is
+/// above `along_plane`: it would make thin wedges. `price_along` is its price in triangles of the interface.
 constexpr double near_plane = 1.5;
 constexpr double along_plane = 0.7;
 constexpr double price_along = 10;
@@ -44,12 +44,12 @@ struct CutPlane {
     Point<3> normal{};
     double offset = 0;
     double triangles = 0; ///< of the interface
-    double along = 0;     ///< facets of the boundary that lie along it
+    double along = 0;     ///< number of boundary facets that lie along it
 
     double price() const { return triangles + price_along * along; }
 };
 
-/// The axes, and the diagonals of their planes and of the cube.
+/// The axes, and the diagonals of the coordinate planes and of the cube.
 std::vector<Point<3>> directions() {
     std::vector<Point<3>> all;
     for (int code = 14; code < 27; ++code) { // one of each opposite pair
@@ -59,10 +59,10 @@ std::vector<Point<3>> directions() {
     return all;
 }
 
-/// One block and the planes that might cut it.
+/// A block and the candidate planes that cut it.
 class BlockCutter {
 public:
-    /// `boundary` is that of the block, where it is known already.
+    /// `boundary`: the block's, if already known.
     BlockCutter(const Array<Point<3>>& points, const Block& block, const SizeField<3>& size, double growth,
                 const Boundary<3>* boundary)
         : block_{block}, size_{size}, growth_{growth}, part_{surface_of_block(points, block.facets)},
@@ -72,7 +72,7 @@ public:
         }
     }
 
-    /// The part below a plane, which wants `share` of the load, and that above; adds the interface's points.
+    /// The part below a plane, with `share` of the load, and the part above; adds the interface's points.
     std::optional<std::pair<Block, Block>> run(double share, Array<Point<3>>& points) const {
         std::vector<CutPlane> grazing;
         for (const double imbalance : imbalances) {
@@ -117,7 +117,7 @@ std::vector<CutPlane> BlockCutter::planes_near(double share, double imbalance) c
 
 std::vector<CutPlane> BlockCutter::planes_across(const Point<3>& normal, double share,
                                                  double imbalance) const {
-    std::vector<std::pair<double, double>> along; // where, how much
+    std::vector<std::pair<double, double>> along; // place, load
     for (const LoadSample& sample : block_.load) {
         along.emplace_back(dot(normal, sample.at), sample.cubes);
     }
@@ -138,12 +138,12 @@ std::vector<CutPlane> BlockCutter::planes_across(const Point<3>& normal, double 
     return planes;
 }
 
-/// What the interface will have, roughly.
+/// Estimate of the interface's number of triangles.
 double BlockCutter::triangles_in(const CutPlane& plane) const {
     double triangles = 0;
     for (const LoadSample& sample : block_.load) {
         if (std::abs(dot(plane.normal, sample.at) - plane.offset) < sample.spacing) {
-            triangles += sample.cubes; // in a slice two spacings thick; two triangles to a square
+            triangles += sample.cubes; // the slice is two spacings thick; two triangles to a square
         }
     }
     return triangles;
@@ -175,7 +175,7 @@ std::optional<std::pair<Block, Block>> BlockCutter::cut_by_best(std::vector<CutP
     for (const CutPlane& plane : planes) {
         try {
             return cut(PlaneFrame{plane.normal, plane.offset}, points);
-        } catch (const GeometryError&) { // this plane will not do
+        } catch (const GeometryError&) { // try the next plane
         }
     }
     return std::nullopt;
@@ -191,7 +191,7 @@ Array<Facet<3>> BlockCutter::side(const std::vector<char>& above, char which) co
     return facets;
 }
 
-/// Each side is the boundary of a domain.
+/// Throws unless the facets of a side bound a domain.
 void BlockCutter::require_sound(const BlockInterface& interface, const Array<Facet<3>>& facets) const {
     Array<Point<3>> points = part_.surface.points;
     points.insert(points.end(), interface.points.begin(), interface.points.end());

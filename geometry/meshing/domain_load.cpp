@@ -11,7 +11,7 @@ namespace slabhull {
 
 namespace {
 
-/// Edge of a piece, in spacings.
+/// Largest edge of a piece, in spacings.
 constexpr double piece_edge = 2;
 constexpr int deepest_cube = 40;
 

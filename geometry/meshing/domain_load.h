@@ -8,16 +8,16 @@
 
 namespace slabhull {
 
-/// A piece of a domain, and how many cells are wanted in it.
+/// A piece of a domain, and the number of cells wanted in it.
 struct LoadSample {
     Point<3> at{};
     double spacing = 0; ///< wanted there
-    double cubes = 0;   ///< of that edge in the piece: its volume / spacing^3
+    double cubes = 0;   ///< wanted cubes in the piece: its volume / spacing^3
 };
 
-/// The domain inside a surface in pieces about twice as large as the spacing in them: the integral of h^-3.
+/// Samples the integral of h^-3 over the domain inside a surface, in pieces with edges of about two spacings.
 /// Needs: the boundary of a domain, see require_domain_boundary().
-/// Cost: near-linear in the pieces; one ray for each on the boundary. Does not depend on the number of
+/// Cost: near-linear in the pieces; one ray for each at the boundary. Does not depend on the number of
 /// threads.
 std::vector<LoadSample> sample_load(const Surface<3>& surface, const SizeField<3>& size);
 

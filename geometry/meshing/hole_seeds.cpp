@@ -21,7 +21,7 @@ namespace {
 
 constexpr double unreached = std::numeric_limits<double>::infinity();
 
-/// Distance, in lengths of `direction`, at which a ray goes through a triangle (Moeller and Trumbore 1997).
+/// Distance, in lengths of `direction`, at which a ray crosses a triangle (Moeller and Trumbore 1997).
 double distance_along(const Point<3>& from, const Point<3>& direction, const FacetCorners<3>& t) {
     const Point<3> u = minus(t[1], t[0]);
     const Point<3> v = minus(t[2], t[0]);
@@ -64,7 +64,8 @@ private:
     double diameter_;
 };
 
-/// Distance from a facet to the next one along a unit vector. Short rays come first: they meet few boxes.
+/// Distance from a facet to the next one along a unit vector. Short rays are tried first: they meet few
+/// boxes.
 double SeedSearch::reach(Index facet, const Point<3>& from, const Point<3>& direction) const {
     const FacetCorners<3> corners = corners_of_facet(surface_, facet);
     for (double length = norm(minus(corners[1], corners[0])); length < 2 * diameter_; length *= 2) {
@@ -85,12 +86,12 @@ double SeedSearch::reach(Index facet, const Point<3>& from, const Point<3>& dire
     return unreached;
 }
 
-/// Half way from a facet's centroid to what faces it across the body.
+/// The midpoint between a facet's centroid and the opposite facet across the body.
 SeedSearch::Candidate SeedSearch::behind(Index facet) const {
     const FacetCorners<3> corners = corners_of_facet(surface_, facet);
     const Point<3> centroid = times(1.0 / 3, plus(plus(corners[0], corners[1]), corners[2]));
     const Point<3> normal = cross(minus(corners[1], corners[0]),
-                                  minus(corners[2], corners[0])); // out of the domain, so into the body
+                                  minus(corners[2], corners[0])); // outward from the domain, so into the body
     const Point<3> direction = times(1 / norm(normal), normal);
     const double distance = reach(facet, centroid, direction);
     return {std::isfinite(distance) ? distance : 0, plus(centroid, times(0.5 * distance, direction))};
@@ -129,7 +130,7 @@ std::vector<Point<3>> hole_seeds(const Boundary<3>& boundary, const Surface<3>& 
     for (Index f = 0; f < boundary.facet_count(); ++f) {
         facets[boundary.component(f)].push_back(f);
     }
-    std::optional<SeedSearch> search; // its tree is for nothing when there are no bodies
+    std::optional<SeedSearch> search; // its tree is not needed if there are no bodies
     std::vector<Point<3>> seeds;
     for (Index part = 0; part < enclosed.size(); ++part) {
         if (!(enclosed[part] > 0)) {

@@ -8,11 +8,11 @@
 
 namespace slabhull {
 
-/// One point inside each body that a domain's boundary surrounds, well off its surface: a mesher that fills
-/// closed surfaces is told by them what to leave out. Each is proven, by exact winding numbers, to be
-/// inside its body and outside the domain.
+/// One point inside each body that a domain's boundary surrounds, well off its surface. It tells a mesher
+/// that fills closed surfaces what to leave empty. Each is proven, by exact winding numbers, to be inside its
+/// body and outside the domain.
 /// Needs: the boundary of a domain, see require_domain_boundary().
-/// Throws GeometryError when a body is so thin that no such point is found in floating point.
+/// Throws GeometryError if a body is so thin that no such point is found in floating point.
 std::vector<Point<3>> hole_seeds(const Boundary<3>& boundary, const Surface<3>& surface);
 
 } // namespace slabhull

@@ -5,7 +5,7 @@
 
 namespace slabhull::exact {
 
-/// Whether p is strictly inside the circumcircle of a positively oriented triangle, without rounding (CGAL).
+/// Whether p is strictly inside the circumcircle of a positively oriented triangle. Exact (CGAL).
 bool in_circle(const plane::Corners& triangle, const Point<2>& p);
 
 } // namespace slabhull::exact

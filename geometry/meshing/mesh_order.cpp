@@ -18,16 +18,16 @@ namespace {
 
 constexpr std::size_t indices_per_chunk = 1 << 14;
 
-/// A place along the curve, and who is there.
+/// A position along the curve, and the item there.
 using Keyed = std::pair<std::uint64_t, Index>;
 
-/// Things in stretches of the curve, by number in each.
+/// Items grouped by stretches of the curve; within a stretch, ascending by number.
 struct Stretches {
     Array<Index> members;
-    std::vector<std::size_t> begin; ///< of each stretch, and one past the last
+    std::vector<std::size_t> begin; ///< of each stretch, and the end of the last
 };
 
-/// Two passes of counting sort by the leading bits of the places. Each thread takes one part of the things
+/// Counting sort by the leading bits of the positions, in two passes. Each thread takes one part of the items
 /// and has its own counters.
 template<class Place>
 Stretches sort_into_stretches(std::size_t count, const Place& place) {
@@ -62,7 +62,7 @@ Stretches sort_into_stretches(std::size_t count, const Place& place) {
     return result;
 }
 
-/// `count` things by their places along the curve; what is in one place by number. Places are listed for one
+/// Numbers 0 .. count - 1 sorted by position along the curve, then by number. Positions are stored for one
 /// stretch at a time.
 template<class Place>
 Array<Index> sorted_along_curve(std::size_t count, const Place& place) {

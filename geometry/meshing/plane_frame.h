@@ -10,7 +10,7 @@
 
 namespace slabhull {
 
-/// A plane in space with coordinates in it, right-handed with its normal.
+/// A plane in space with a coordinate system, right-handed with its normal.
 class PlaneFrame {
 public:
     /// All x with normal . x = offset; the normal has length 1.

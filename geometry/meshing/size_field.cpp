@@ -11,14 +11,14 @@ namespace slabhull {
 
 namespace {
 
-/// Boxes are never halved more often: the digits of a double are used up, whatever the ratio of sizes.
+/// Largest depth of the tree: beyond it the digits of a double are used up, whatever the ratio of sizes.
 constexpr int max_depth = 48;
 
 } // namespace
 
-/// Builds the boxes depth first. Each box inherits from its parent the sources that may rule some part of it,
-/// so that the lists shrink with the boxes: what is far away and coarse is discarded for a whole subtree at
-/// once.
+/// Builds the boxes depth first. Each box inherits from its parent only the sources that may give the minimum
+/// in some part of it. So the lists shrink with the boxes: distant, coarse sources are discarded for a whole
+/// subtree at once.
 template<int D>
 class SizeField<D>::Builder {
 public:
@@ -43,13 +43,13 @@ private:
         Index index;
     };
 
-    /// Fills the box with that centre and half edge, given the candidates [begin, end) of its parent.
+    /// Fills the box with this centre and half edge, given the candidates [begin, end) of its parent.
     void fill(Index box, const Point<D>& centre, double half, std::size_t begin, std::size_t end, int depth) {
         const double radius = half * std::sqrt(static_cast<double>(D));
         const std::size_t best = find_best(centre, begin, end);
         const std::size_t kept = candidates_.size();
         if (best == end || !keep_rivals(begin, end, values_[best - begin], growth_ * radius)) {
-            return; // `largest` rules the whole box
+            return; // `largest` is the minimum in the whole box
         }
         const double here = std::min(values_[best - begin], field_.grading_.largest);
         const bool alone = candidates_.size() == kept + 1;
@@ -90,8 +90,8 @@ private:
         return best;
     }
 
-    /// Appends those candidates that may rule some part of a box across which a spacing varies by `sway`
-    /// either way; false when there is none.
+    /// Appends the candidates that may give the minimum in some part of a box across which a spacing varies
+    /// by `sway` either way; false if there is none.
     bool keep_rivals(std::size_t begin, std::size_t end, double best, double sway) {
         const double bound = std::min(best + 2 * sway, field_.grading_.largest + sway);
         const std::size_t before = candidates_.size();
@@ -104,12 +104,13 @@ private:
         return candidates_.size() > before;
     }
 
-    /// With an excess e over the spacing at the centre of a leaf, that over h(x) is e / (1 - e / 2).
+    /// An excess e over the spacing at a leaf's centre is an excess e / (1 - e / 2) over h(x): here
+    /// `tolerance`.
     static constexpr double leaf_excess = tolerance / (1 + tolerance / 2);
 
     SizeField& field_;
     double growth_;
-    std::vector<Candidate> candidates_; ///< a stack: the lists of the boxes on the way down
+    std::vector<Candidate> candidates_; ///< a stack: the lists of all boxes on the current path
     std::vector<double> values_;
 };
 
@@ -140,7 +141,7 @@ SizeField<D>::SizeField(std::span<const Point<D>> points, std::span<const double
 
 template<int D>
 Index SizeField<D>::leaf_at(const Point<D>& x) const {
-    // The binary digits of x, counted in finest boxes, spell the way down.
+    // The binary digits of x, in units of the finest box, are the path down the tree.
     constexpr auto finest = static_cast<double>(std::uint64_t{1} << max_depth);
     std::array<std::uint64_t, D> place;
     for (std::size_t k = 0; k < D; ++k) {

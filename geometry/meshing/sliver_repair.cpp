@@ -18,7 +18,7 @@ namespace {
 
 constexpr int rounds = 3;
 constexpr int steps_per_vertex = 12;
-/// Length of steps as part of the mean distance to the neighbours; the shortest, below which a search ends.
+/// Length of steps as a fraction of the mean distance to the neighbours; a search ends below the shortest.
 constexpr double first_step = 0.2;
 constexpr double last_step = 0.02;
 
@@ -58,13 +58,13 @@ private:
         }
     }
 
-    /// Smallest angle of a cell; negative when it is not positively oriented.
+    /// Smallest angle of a cell; negative if it is not positively oriented.
     double angle(Index cell) const {
         const auto corners = corners_of<3, 3>(mesh_.cells[cell], mesh_.points);
         return signed_measure<3>(corners) > 0 ? dihedral_angles<3, 3>(corners).smallest : -1;
     }
 
-    /// Cells around a vertex, from one of them.
+    /// Gathers the cells around a vertex, starting at one of them.
     void gather_star(Index vertex, Index start) {
         star_.assign(1, start);
         for (std::size_t next = 0; next < star_.size(); ++next) {
@@ -79,7 +79,7 @@ private:
         }
     }
 
-    /// Smallest angle around the vertex whose star was gathered; some value below `enough` when it is below.
+    /// Smallest angle around the vertex whose star was gathered; if below `enough`, any value below that.
     double smallest_around(double enough) const {
         double smallest = 180;
         for (const Index cell : star_) {
@@ -101,7 +101,7 @@ private:
         return sum / (3 * static_cast<double>(star_.size()));
     }
 
-    /// Pattern search: the best of 26 places around, with shorter steps where none is better.
+    /// Pattern search: takes the best of 26 surrounding places, and shortens the step if none is better.
     void improve(Index vertex, Index cell) {
         gather_star(vertex, cell);
         const double distance = mean_distance(vertex);

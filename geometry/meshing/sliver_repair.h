@@ -7,10 +7,10 @@
 
 namespace slabhull {
 
-/// Moves vertices, none of the first `fixed_points`, of cells whose smallest dihedral angle is below `wanted`
-/// degrees, wherever that raises the smallest angle around the vertex. Cells stay what they are, and positive
-/// (exactly). Cost: a pass over all cells, and some milliseconds for each cell below. Does not depend on the
-/// number of threads.
+/// Moves vertices, except the first `fixed_points`, of cells whose smallest dihedral angle is below `wanted`
+/// degrees, if that increases the smallest angle around the vertex. Connectivity is unchanged, and cells stay
+/// positive (exactly). Cost: a pass over all cells, and some milliseconds for each cell below `wanted`. Does
+/// not depend on the number of threads.
 void repair_slivers(CapMesh<3>& mesh, std::size_t fixed_points, double wanted);
 
 } // namespace slabhull

@@ -27,7 +27,7 @@ bool receive_mesh(const Receive& receive, MesherHeading& heading, CapMesh<3>& me
 ChildEnd run_silently(const std::function<void(const Send&)>& job,
                       const std::function<bool(const Receive&)>& receive) {
     const auto silent_job = [&](const Send& send) {
-        fall_silent(); // TetGen prints whatever it is told
+        fall_silent(); // TetGen prints even when told to be quiet
         job(send);
     };
     try {

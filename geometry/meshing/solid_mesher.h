@@ -12,9 +12,9 @@
 
 namespace slabhull {
 
-/// Fills the inside of a closed surface, in a child process. What comes back is to be verified.
+/// Fills the inside of a closed surface, in a child process. The caller must verify the result.
 /// Needs: the boundary of a domain, see require_domain_boundary().
-/// Throws GeometryError when the mesher fails, UsageError when this build does not have it.
+/// Throws GeometryError if the mesher fails, UsageError if this build does not have it.
 CapMesh<3> fill_with_tetgen(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                             const CapOptions& options);
 CapMesh<3> fill_with_hxt(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
@@ -23,21 +23,21 @@ CapMesh<3> fill_with_hxt(const Boundary<3>& boundary, const Surface<3>& surface,
 bool has_tetgen();
 bool has_hxt();
 
-/// First words from a mesher's child; points, cells and neighbours follow.
+/// The header that a mesher's child sends; points, cells and neighbours follow.
 struct MesherHeading {
     std::int32_t status = 0; ///< 0 for success, else what went wrong
     std::int64_t points = 0;
     std::int64_t cells = 0;
-    std::int64_t neighbors = 0;   ///< as many as cells, or none: then they are found here
-    std::array<char, 200> said{}; ///< the mesher's own words, for errors
+    std::int64_t neighbors = 0;   ///< as many as cells, or none: then they are computed here
+    std::array<char, 200> said{}; ///< the mesher's message, for errors
 };
 
-/// Longest edge of a cell, in wanted spacings, that is still let be: makes the mean edge about as long as the
+/// Longest edge of a cell, in wanted spacings, that is not split: makes the mean edge about as long as the
 /// spacing.
 inline constexpr double longest_edge = 1.7;
 
-/// Runs `job` in a child and takes the mesh that it sends.
-/// Throws GeometryError saying how the child ended, `words` for a heading that is not of success.
+/// Runs `job` in a child and receives the mesh that it sends.
+/// Throws GeometryError saying how the child ended, or with `words` if the heading reports a failure.
 CapMesh<3> fill_in_child(const Surface<3>& surface, const std::function<void(const Send&)>& job,
                          const std::function<std::string(const MesherHeading&)>& words);
 

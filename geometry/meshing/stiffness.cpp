@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t cells_per_piece = 1 << 14;
 constexpr std::size_t vertices_per_piece = 1 << 12;
 
-/// The corners of a cell taken in pairs: which pair corners i and j are.
+/// The pairs of corners of a cell: number of the pair of corners i and j.
 template<int D>
 struct CornerPairs {
     static constexpr std::size_t count = D * (D + 1) / 2;
@@ -35,7 +35,7 @@ struct CornerPairs {
     }();
 };
 
-/// The entries of one cell off the diagonal, by pair of corners.
+/// The off-diagonal entries of one cell, by pair of corners.
 template<int D>
 using CellStiffness = std::array<float, CornerPairs<D>::count>;
 
@@ -63,11 +63,11 @@ std::array<Point<D>, D + 1> scaled_gradients(const std::array<Point<D>, D + 1>& 
     return g;
 }
 
-/// `unit` is the length that counts as 1.
+/// `unit`: the unit of length.
 template<int D>
 CellStiffness<D> cell_stiffness(const std::array<Point<D>, D + 1>& corners, double unit) {
     const auto g = scaled_gradients<D>(corners);
-    const double volume = dot(g[1], minus(corners[1], corners[0])); // times D!
+    const double volume = dot(g[1], minus(corners[1], corners[0])); // D! times the volume
     double squares = 0;
     for (const Point<D>& gradient : g) {
         squares += dot(gradient, gradient);
@@ -83,7 +83,8 @@ CellStiffness<D> cell_stiffness(const std::array<Point<D>, D + 1>& corners, doub
     return result;
 }
 
-/// The edge of a cube that holds as much as the mean cell, roughly: only its order of magnitude matters.
+/// Edge of a cube as large as the mean cell, estimated from the bounding box: only its order of magnitude
+/// matters.
 template<int D>
 double typical_length(std::span<const Point<D>> points, std::span<const Simplex<D>> cells) {
     double volume = 1;
@@ -125,8 +126,8 @@ Stars stars_of(std::span<const Simplex<D>> cells, std::span<const std::uint8_t> 
     return stars;
 }
 
-/// How many neighbours a vertex with so many cells around it has: its link is a cycle or, by Euler's formula,
-/// a sphere of half as many vertices, and two.
+/// Number of neighbours of a vertex, given the number of cells around it. For D = 2 its link is a cycle; for
+/// D = 3 it is a sphere of so many triangles, with half as many vertices, plus two, by Euler's formula.
 template<int D>
 std::size_t neighbors_in_ball(std::size_t cells) {
     return D == 2 ? cells : cells / 2 + 2;
@@ -177,8 +178,8 @@ private:
         result_.root.assign(points_.size(), 1);
     }
 
-    /// Sums a row over the cells around its vertex. `places` says where in the row the entry of each vertex
-    /// may be; what other rows have left in it does no harm.
+    /// Sums a row over the cells around its vertex. `places` caches the position in the row of each vertex's
+    /// entry; stale positions from other rows are detected.
     void sum_row(std::size_t v, std::vector<Index>& places) {
         const auto row =
             std::span{result_.entries}.subspan(result_.first[v], result_.first[v + 1] - result_.first[v]);

@@ -10,13 +10,13 @@
 
 namespace slabhull::detail {
 
-/// The stiffness matrix K of linear elements for div(kappa grad u) = 0, kappa one number per cell: the square
-/// of sum_i |grad lambda_i|^2 over its barycentric coordinates. So kappa falls with the fourth power of the
-/// cell's size, and rises with the fourth of its flatness: small and flat cells are carried along, large
-/// round ones give way.
+/// The stiffness matrix K of linear elements for div(kappa grad u) = 0 with kappa constant per cell: the
+/// square of sum_i |grad lambda_i|^2 over its barycentric coordinates. So kappa falls with the fourth power
+/// of the cell's size, and rises with the fourth of its flatness: small and flat cells move almost rigidly,
+/// large round ones deform.
 ///
-/// Scaled to a unit diagonal, K_ij / sqrt(K_ii K_jj), in single precision. There are rows for the free
-/// vertices only; the fixed ones enter with K_jj = 1. Lengths are in units of the mean cell's.
+/// Scaled to a unit diagonal, K_ij / sqrt(K_ii K_jj), in single precision. Only free vertices have rows;
+/// fixed ones enter with K_jj = 1. The unit of length is the mean cell's.
 struct Stiffness {
     struct Entry {
         Index column;
@@ -33,8 +33,8 @@ struct Stiffness {
     bool is_free(std::size_t v) const { return first[v] != first[v + 1]; }
 };
 
-/// `fixed` is 1 for fixed vertices and 0 for free ones.
-/// Needs: positive cells, which around a free vertex fill a ball.
+/// `fixed`: 1 for fixed vertices and 0 for free ones.
+/// Needs: positive cells that fill a ball around each free vertex.
 /// Throws GeometryError naming a free vertex around which they do not.
 /// Cost: linear. The same for any number of threads.
 template<int D>

@@ -14,12 +14,12 @@ namespace slabhull {
 
 namespace {
 
-/// Facets are free to go to either side when their centre is at most so many spacings from the plane.
+/// Facets may go to either side if their centre is at most this many spacings from the plane.
 constexpr double free_height = 1.6;
-/// Cost of an edge at such a height h, in edges in the plane: 1 + pull h^2. Small enough not to prefer two
-/// sides of a triangle to the third, or a zigzag to a grid line half a spacing off.
+/// Cost of an edge at height h, in spacings, relative to one in the plane: 1 + pull h^2. Small enough not to
+/// prefer two sides of a triangle to the third, or a zigzag to a grid line half a spacing away.
 constexpr double pull = 0.4;
-/// Costs are whole numbers, so that the cut is the same everywhere.
+/// Costs are rounded to integers, so that the cut is the same on all machines.
 constexpr double cost_unit = 1e6;
 
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    /// Of a facet's centre, in spacings.
+    /// Mean height of a facet, in spacings.
     double mean_height(Index f) const {
         double sum = 0;
         for (const Index v : surface_.facets[f]) {
@@ -113,7 +113,7 @@ private:
     std::span<const double> height_;
     std::span<const double> spacing_;
     std::vector<char> above_;
-    std::vector<Index> node_; ///< of each facet in the graph; no_index for those that are not free
+    std::vector<Index> node_; ///< node of each facet in the graph; no_index if it is not free
     std::vector<Index> free_; ///< the facet of each node
 };
 

@@ -25,11 +25,11 @@ constexpr std::size_t previous(std::size_t i) {
     return i == 0 ? 2 : i - 1;
 }
 
-/// What a triangle looks like from its shortest edge.
+/// Shape of a triangle relative to its shortest edge.
 struct Shape {
     std::size_t apex = 0; ///< local number of the vertex opposite to the shortest edge
-    double shortest = 0;  ///< square of its length
-    double others = 0;    ///< product of the squares of the other two
+    double shortest = 0;  ///< square of the shortest edge's length
+    double others = 0;    ///< product of the squares of the other two lengths
     double double_area = 0;
 
     explicit Shape(const Corners& p) : double_area{cross(minus(p[1], p[0]), minus(p[2], p[0]))} {

@@ -87,7 +87,8 @@ void VertexStar::move(const Point<2>& p) {
     cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
 }
 
-/// Flips an edge that is not Delaunay, if there is one, and puts both triangles on the stack again.
+/// Flips an edge of the cell that is not Delaunay, if there is one, and pushes both triangles onto the stack
+/// again.
 bool VertexStar::flip_one_edge_of(Index cell) {
     for (std::size_t k = 0; k < 3; ++k) {
         const Index other = mesh_.neighbors[cell][k];
@@ -105,7 +106,7 @@ bool VertexStar::flip_one_edge_of(Index cell) {
     return false;
 }
 
-/// Turns the diagonal of the quadrilateral of a cell and its neighbor k.
+/// Flips the edge between a cell and its neighbor k.
 ///
 ///        y                y
 ///      / | \            /   \      .
@@ -135,7 +136,7 @@ void VertexStar::flip(Index cell, std::size_t k) {
     tell(across_yp, cell, other);
 }
 
-/// Lets a cell know that its neighbor has changed places.
+/// Replaces a neighbor in a cell's list.
 void VertexStar::tell(Index cell, Index before, Index now) {
     if (cell != no_index) {
         mesh_.neighbors[cell][place_of(mesh_.neighbors[cell], before)] = now;

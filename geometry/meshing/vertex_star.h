@@ -10,30 +10,30 @@
 
 namespace slabhull {
 
-/// The triangles around an interior vertex of a constrained Delaunay triangulation, for moving the vertex.
+/// The star of an interior vertex of a constrained Delaunay triangulation, for moving the vertex.
 class VertexStar {
 public:
     /// `mesh` must outlive it.
     explicit VertexStar(CapMesh<2>& mesh) : mesh_{mesh} {}
 
-    /// Walks around a vertex of `cell`. False when that is on the boundary.
+    /// Collects the star of a vertex of `cell`. False if the vertex is on the boundary.
     bool gather(Index cell, Index vertex);
 
     std::span<const Index> cells() const { return cells_; }
-    /// Mean of the vertices around.
+    /// Mean of the link's vertices.
     Point<2> centroid() const;
-    /// Least sine of an angle in the star, were the vertex at p; 0 when a triangle would be inverted.
+    /// Least sine of an angle in the star if the vertex were at p; 0 if a triangle would be inverted.
     double least_sine(const Point<2>& p) const;
-    /// Distance from p to the nearest vertex around.
+    /// Distance from p to the nearest vertex of the link.
     double clearance(const Point<2>& p) const;
 
-    /// Moves the vertex to p, where least_sine(p) > 0, and flips edges until the triangulation is constrained
-    /// Delaunay again; that only makes the least angle larger. cells() then names all triangles changed.
+    /// Moves the vertex to p and flips edges until the triangulation is constrained Delaunay again, which can
+    /// only increase the least angle. Needs: least_sine(p) > 0. cells() then names all triangles changed.
     void move(const Point<2>& p);
 
 private:
     plane::Corners corners(Index cell) const;
-    /// The star's triangle with the vertex at p in its first corner.
+    /// The star's triangle i, with the vertex moved to p as its first corner.
     plane::Corners moved(std::size_t i, const Point<2>& p) const;
     bool flip_one_edge_of(Index cell);
     void flip(Index cell, std::size_t k);

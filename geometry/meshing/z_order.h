@@ -11,14 +11,14 @@
 
 namespace slabhull {
 
-/// Places in the plane or in space along a Z curve (Morton order): points that are near in the order are near
-/// in space.
+/// Positions of points, in the plane or in space, along a Z curve (Morton order): points close on the curve
+/// are close in space.
 template<int D>
 class ZOrder {
     static_assert(D == 2 || D == 3);
 
 public:
-    /// The curve fills the box around `points`, of which there is at least one.
+    /// The curve fills the bounding box of `points`. Needs: at least one point.
     explicit ZOrder(std::span<const Point<D>> points) : low_{points[0]} {
         Point<D> high = low_;
         for (const Point<D>& p : points) {
