@@ -26,7 +26,8 @@ struct AffineFunction {
 /// solved by exchange (the simplex method for its dual). Arithmetic is rounded; if you need a guarantee,
 /// evaluate the functions at the result. The point lies in a simplex whose inscribed ball has a radius of
 /// some hundred units about the origin, so an unbounded program has a result, too: scale to the size of the
-/// solution. Cost: linear in the functions for each exchange, of which there are some N to 5 N.
+/// solution.
+/// Cost: linear in the functions for each exchange, of which there are some N to 5 N.
 template<int N>
 Point<N> largest_minimum(std::span<const AffineFunction<N>> functions);
 

@@ -19,8 +19,8 @@ public:
     /// The points must outlive the finder. Cost: that of sorting.
     explicit PointFinder(std::span<const Point<D>> points);
 
-    /// The points at most `radius` from x: by distance, then by number. Cost: that of a search, plus linear
-    /// in the points within `radius` along the direction.
+    /// The points at most `radius` from x: by distance, then by number.
+    /// Cost: that of a search, plus linear in the points within `radius` along the direction.
     std::vector<std::size_t> within(const Point<D>& x, double radius) const;
 
     /// The nearest of all. Needs: a point. Cost: linear.

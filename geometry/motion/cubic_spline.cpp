@@ -10,7 +10,7 @@ namespace slabhull::detail {
 
 namespace {
 
-/// A line of the tridiagonal system for the slopes: below s[i-1] + diagonal s[i] + above s[i+1] = right.
+/// A row of the tridiagonal system for the slopes: below s[i-1] + diagonal s[i] + above s[i+1] = right.
 template<int N>
 struct Equation {
     double below;
@@ -19,7 +19,7 @@ struct Equation {
     Point<N> right;
 };
 
-/// Pieces of lengths h and chords' slopes c, between rows.
+/// Intervals between rows: their lengths h and the slopes c of their chords.
 template<int N>
 struct Pieces {
     std::vector<double> h;
@@ -36,7 +36,7 @@ Pieces<N> pieces_of(const std::vector<double>& times, const std::vector<Point<N>
     return pieces;
 }
 
-/// The third derivatives of the two pieces at an end agree; `outer` is the piece at the end.
+/// Equation of an end: the third derivatives of its two pieces agree; `outer` is the piece at the end.
 template<int N>
 Point<N> not_a_knot(double outer, double inner, const Point<N>& outer_chord, const Point<N>& inner_chord) {
     const double both = outer + inner;
@@ -44,7 +44,7 @@ Point<N> not_a_knot(double outer, double inner, const Point<N>& outer_chord, con
                  plus(times((outer + 2 * both) * inner, outer_chord), times(outer * outer, inner_chord)));
 }
 
-/// The second derivatives agree at each inner row.
+/// Equation of an inner row: the second derivatives agree.
 template<int N>
 std::vector<Equation<N>> equations(const Pieces<N>& pieces) {
     const auto& [h, c] = pieces;
@@ -54,7 +54,7 @@ std::vector<Equation<N>> equations(const Pieces<N>& pieces) {
         lines[i] = {h[i], 2 * (h[i - 1] + h[i]), h[i - 1],
                     times(3, plus(times(h[i], c[i - 1]), times(h[i - 1], c[i])))};
     }
-    if (last == 2) { // one parabola
+    if (last == 2) { // a parabola through three rows
         lines[0] = {0, 1, 1, times(2, c[0])};
         lines[2] = {1, 1, 0, times(2, c[1])};
     } else {
@@ -65,7 +65,7 @@ std::vector<Equation<N>> equations(const Pieces<N>& pieces) {
     return lines;
 }
 
-/// Elimination without pivoting, which stays regular for these equations.
+/// Elimination without pivoting, which is never singular for these equations.
 template<int N>
 std::vector<Point<N>> solve(std::vector<Equation<N>> lines) {
     for (std::size_t i = 1; i < lines.size(); ++i) {
@@ -98,7 +98,7 @@ Sample<N> CubicSpline<N>::at(double t) const {
     const double u = (t - times_[i]) / h;
     const double w = 1 - u;
     Sample<N> sample;
-    for (std::size_t k = 0; k < N; ++k) { // Hermite's form: u and w are exact at the rows
+    for (std::size_t k = 0; k < N; ++k) { // Hermite's form, exact at the rows
         const double rise = values_[i + 1][k] - values_[i][k];
         sample.value[k] = w * w * (1 + 2 * u) * values_[i][k] + u * u * (1 + 2 * w) * values_[i + 1][k] +
                           h * u * w * (w * slopes_[i][k] - u * slopes_[i + 1][k]);

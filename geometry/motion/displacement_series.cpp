@@ -16,11 +16,11 @@ namespace {
 
 using namespace detail;
 
-/// How much rows count, by row.
+/// Weight of each row that counts.
 using Weights = std::map<std::size_t, double>;
 
-/// Adds `factor` times the slope at row i of the polynomial through the rows near it. The derivative of
-/// Lagrange's polynomials at a node, in barycentric form: Berrut and Trefethen, "Barycentric Lagrange
+/// Adds `factor` times the slope at row i of the polynomial through the rows near it: the derivative of
+/// Lagrange's polynomials at a node, in barycentric form. Berrut and Trefethen, "Barycentric Lagrange
 /// Interpolation", SIAM Review 46 (2004), section 9.3.
 void add_slope(const std::vector<double>& t, std::size_t i, double factor, Weights& weights) {
     constexpr std::size_t most = 5;
@@ -137,7 +137,8 @@ private:
         }
     }
 
-    /// Levels computed from a slab's times may miss the first and the last row by a rounding.
+    /// Clamps to the rows: levels computed from a slab's times may miss the first or last row by a rounding
+    /// error.
     double clamped(double t) const {
         const double first = rows_.times.front();
         const double last = rows_.times.back();
@@ -149,7 +150,7 @@ private:
         return std::clamp(t, first, last);
     }
 
-    /// `likely`: where the track is when they are asked for in order.
+    /// `likely`: the track's place if tracks are queried in order.
     std::size_t place_of(TrackId track, std::size_t likely) const {
         if (likely < rows_.tracks.size() && rows_.tracks[likely] == track) {
             return likely;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Velocities given as formulas, through muParser. Evaluated point by point: its bulk mode, which hands the
-// points to OpenMP, took two to three times as long where we measured (9 against 31 ns for
+// Velocities given as formulas, evaluated by muParser point by point: its bulk mode, which distributes the
+// points by OpenMP, took two to three times as long where we measured (9 against 31 ns for
 // "w*(x-0.5)*(y+t)+z^2").
 #include "slabhull/geometry/motion.h"
 
@@ -32,7 +32,7 @@ using Constants = std::map<std::string, double>;
 }
 
 std::string words_of(const mu::ParserError& error) {
-    // Many of its messages name the position, counted from 0; the others get it in the same words.
+    // Many of muParser's messages name the position, counted from 0; add it to the others.
     std::string words = error.GetMsg();
     if (error.GetPos() >= 0 && words.find("position") == std::string::npos) {
         words += fmt::format(" at position {}", error.GetPos());
@@ -49,8 +49,7 @@ bool assigns(const mu::Parser& parser) {
     return false;
 }
 
-/// What the formulas of one motion compute with. muParser's evaluation has state, so that each thread needs
-/// its own.
+/// An evaluator of one motion's formulas. muParser's evaluation has state, so each thread needs its own.
 template<int D>
 class Evaluator {
 public:
@@ -111,7 +110,7 @@ private:
         }
     }
 
-    /// muParser parses at the first evaluation.
+    /// Compiles by evaluating once: muParser parses at the first evaluation.
     static void compile(mu::Parser& parser, const std::string& formula) {
         try {
             parser.SetExpr(formula);
@@ -136,7 +135,7 @@ class FormulaVelocity final : public Motion<D> {
 public:
     FormulaVelocity(const std::array<std::string, D>& formulas, const Constants& constants)
         : formulas_{formulas}, constants_{constants} {
-        evaluators_.give_back(borrow()); // finds mistakes in the formulas now
+        evaluators_.give_back(borrow()); // to find errors in the formulas now
     }
 
     void velocity(std::span<const Point<D>> x, double t, std::span<Point<D>> v) const override {

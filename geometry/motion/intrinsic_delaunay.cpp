@@ -10,8 +10,8 @@ namespace slabhull::detail {
 
 namespace {
 
-/// Cotangent of the angle between sides of lengths b and c, opposite to a. Kahan's order of the sums keeps
-/// the area of needles accurate. A triangle that rounding has flattened gets a large, finite value.
+/// Cotangent of the angle opposite to side a, between sides b and c. Kahan's order of the sums keeps the area
+/// of needles accurate. A triangle that rounding has flattened gets a large, finite value.
 double cotangent(double a, double b, double c) {
     std::array<double, 3> sides{a, b, c};
     std::sort(sides.begin(), sides.end());
@@ -22,10 +22,10 @@ double cotangent(double a, double b, double c) {
     return (b * b + c * c - a * a) / four_areas;
 }
 
-/// One of the two directed copies of an edge, with its triangle on the left.
+/// A directed copy of an edge, with its triangle on the left.
 using HalfEdge = Index;
 
-/// Triangles known by their vertices and the lengths of their edges. A flip of the half-edge h from b to c:
+/// Triangles given by their vertices and edge lengths. A flip of the half-edge h from b to c:
 ///
 ///            c                  c
 ///          / | \              /   \             .
@@ -47,7 +47,8 @@ public:
         find_twins(boundary, facets);
     }
 
-    /// Bounded, since rounding might turn needles to and fro for ever; weights then stay a little negative.
+    /// The number of flips is bounded, since rounding might flip needles back and forth for ever. Some
+    /// weights may then stay slightly negative.
     void make_delaunay() {
         std::vector<HalfEdge> suspects;
         for (HalfEdge h = 0; h < twin_.size(); ++h) {
@@ -83,7 +84,7 @@ public:
     }
 
 private:
-    /// Of the boundary's: no_index across the rim of the chosen facets.
+    /// Twins as in the boundary: no_index at the rim of the chosen facets.
     void find_twins(const Boundary<3>& boundary, std::span<const Index> facets) {
         std::vector<Index> chosen(boundary.facet_count(), no_index);
         for (Index k = 0; k < facets.size(); ++k) {
@@ -110,14 +111,14 @@ private:
         if (twin_[h] == no_index) {
             return false;
         }
-        constexpr double rounding = 1e-10; // squares may be cut either way
+        constexpr double rounding = 1e-10; // so that the two diagonals of a square count as equal
         const double left = cotangent_opposite(h);
         const double right = cotangent_opposite(twin_[h]);
         return left + right < -rounding * (std::abs(left) + std::abs(right) + 1);
     }
 
-    /// The third corner of a half-edge's triangle, laid in the plane: the half-edge runs along the first axis
-    /// from the origin.
+    /// The third corner of a half-edge's triangle unfolded into the plane, where the half-edge runs along the
+    /// first axis from the origin.
     Point<2> unfolded_corner(HalfEdge h) const {
         const double base = length_[h];
         const double to_end = length_[next_[h]];
@@ -132,7 +133,7 @@ private:
         next_[third] = h;
     }
 
-    /// Needs: a negative weight, which implies that the two triangles make a convex quadrilateral.
+    /// Needs: a negative weight, which implies that the two triangles form a convex quadrilateral.
     void flip(HalfEdge h) {
         const HalfEdge t = twin_[h];
         const HalfEdge ca = next_[h];
@@ -140,7 +141,7 @@ private:
         const HalfEdge bd = next_[t];
         const HalfEdge dc = next_[bd];
         const Point<2> a = unfolded_corner(h);
-        const Point<2> d = unfolded_corner(t); // which runs the other way
+        const Point<2> d = unfolded_corner(t); // the twin runs in the opposite direction
         length_[h] = length_[t] = std::hypot(a[0] - (length_[h] - d[0]), a[1] + d[1]);
         from_[h] = from_[ab];
         from_[t] = from_[dc];
@@ -148,10 +149,10 @@ private:
         make_triangle(t, ab, bd);
     }
 
-    // By half-edge.
+    // Indexed by half-edge.
     std::vector<Index> from_;
     std::vector<HalfEdge> next_; ///< in its triangle, counter-clockwise
-    std::vector<HalfEdge> twin_; ///< the other way along the same edge; no_index on the rim
+    std::vector<HalfEdge> twin_; ///< the opposite half-edge of the same edge; no_index on the rim
     std::vector<double> length_;
 };
 

@@ -8,21 +8,21 @@
 
 namespace slabhull::detail {
 
-/// An edge of a Laplacian's graph.
+/// A weighted edge of a graph Laplacian.
 struct WeightedEdge {
     Index from;
     Index to;
     double weight;
 };
 
-/// Cotangent weights (cot alpha + cot beta) / 2 of some facets of a boundary where it was opened, never
-/// negative between them.
+/// Cotangent weights (cot alpha + cot beta) / 2 of some facets of a boundary at the start, never negative on
+/// inner edges.
 ///
-/// The edges are those of the surface's intrinsic Delaunay triangulation: those of the given triangles are
-/// flipped on the surface, which keeps its shape, until all weights are non-negative. So a harmonic function
-/// stays between its boundary values whatever the triangles' angles, and on a flat piece linear functions are
-/// harmonic. Edges on the rim of the piece are not flipped and may keep a negative weight. An edge may come
-/// more than once.
+/// The edges are those of the surface's intrinsic Delaunay triangulation: edges of the given triangles are
+/// flipped on the surface, which does not change its shape, until all weights are non-negative. So a harmonic
+/// function stays between its boundary values whatever the triangles' angles, and on a flat piece linear
+/// functions are harmonic. Edges on the rim of the piece are not flipped and may have a negative weight. An
+/// edge may occur more than once.
 /// Fisher, Springborn, Bobenko, Schroeder, "An algorithm for the construction of intrinsic Delaunay
 /// triangulations with applications to digital geometry processing" (2007).
 ///

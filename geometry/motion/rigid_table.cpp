@@ -20,11 +20,11 @@ namespace {
 
 using namespace detail;
 
-/// How a body is turned at an instant.
+/// Orientation of a body at one time, and its rate.
 template<int D>
 struct Attitude {
     AffineMap<D> turn; ///< R, from rest
-    AffineMap<D> spin; ///< R' R^T, which takes an arm to its velocity: the cross product with the angular one
+    AffineMap<D> spin; ///< R' R^T, from arm to velocity: the cross product with the angular velocity
 };
 
 template<int D>
@@ -61,11 +61,12 @@ AffineMap<3> turn_of(const Point<4>& unit) {
             {}};
 }
 
-/// Of the quaternion q = p / |p|, whose rate is q' = (p' - (q . p') q) / |p| and whose angular velocity is
-/// the vector part of 2 q' q*. The term along q has none, so that p' will do for q' |p|.
+/// Attitude of the quaternion q = p / |p|, whose rate is q' = (p' - (q . p') q) / |p| and whose angular
+/// velocity is the vector part of 2 q' q*. The component of p' along q contributes nothing, so p' / |p|
+/// serves as q'.
 Attitude<3> attitude_of_quaternion(const Sample<4>& p, double t) {
     const double length = norm(p.value);
-    constexpr double shortest = 0.25; // half a turn between two rows goes down to 0.7
+    constexpr double shortest = 0.25; // half a turn between two rows still gives 0.7
     if (!(length > shortest)) {
         throw GeometryError{fmt::format("the quaternions of a rigid table turn too far between the rows "
                                         "around t = {} to be interpolated; give more rows there",
@@ -78,7 +79,7 @@ Attitude<3> attitude_of_quaternion(const Sample<4>& p, double t) {
                        -dw * z - dx * y + dy * x + dz * w})};
 }
 
-/// A body that is displaced and turned by table.
+/// Motion of a body displaced and rotated by a table.
 template<int D>
 class TabulatedMotion final : public Motion<D> {
 public:
@@ -104,7 +105,7 @@ public:
     std::vector<double> row_times() const override { return times_; }
 
 private:
-    /// The map from rest.
+    /// The map from rest to time t.
     AffineMap<D> placement(double t) const {
         const double time = inside(t);
         AffineMap<D> place = map_about<D>(centre_, attitude_(time).turn.rows);
@@ -112,11 +113,11 @@ private:
         return place;
     }
 
-    /// The time itself, or the end of the table that it misses by rounding.
+    /// The time, clamped to the table if it is outside by rounding only.
     double inside(double t) const {
         const double slack = 1e-9 * (shift_.last() - shift_.first());
         const double time = std::clamp(t, shift_.first(), shift_.last());
-        if (!(std::abs(t - time) <= slack)) { // written so that NaN is refused, too
+        if (!(std::abs(t - time) <= slack)) { // written so that NaN is refused
             throw GeometryError{fmt::format("a motion by table is known from t = {} to {}, not at t = {}; "
                                             "extend the table",
                                             shift_.first(), shift_.last(), t)};
@@ -150,7 +151,7 @@ void require_ascending(const std::vector<double>& times) {
     }
 }
 
-/// Throws unless `rows` are none, or finite ones for each time.
+/// Throws unless `rows` is empty or has one finite entry per time.
 template<std::size_t N>
 void require_rows(const std::vector<std::array<double, N>>& rows, std::size_t count, const char* what) {
     if (!rows.empty() && rows.size() != count) {
@@ -164,9 +165,9 @@ void require_rows(const std::vector<std::array<double, N>>& rows, std::size_t co
     }
 }
 
-/// With length 1, and the sign by which each continues the one before.
+/// Quaternions normalised, each with the sign nearer to the one before.
 std::vector<Point<4>> continuous(std::vector<Point<4>> quaternions) {
-    constexpr double allowed = 1e-3; // quaternions printed with a few digits
+    constexpr double allowed = 1e-3; // for quaternions printed with a few digits
     const double least_cosine = std::cos(std::numbers::pi / 180 * 179 / 2); // of half the turn between rows
     for (std::size_t i = 0; i < quaternions.size(); ++i) {
         const double length = norm(quaternions[i]);

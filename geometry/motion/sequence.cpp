@@ -16,9 +16,9 @@ namespace {
 
 using namespace detail;
 
-/// With the place M(t) = M_k(t) o ... o M_1(t) of a point that was there at the start, by the chain rule
+/// Composition M(t) = M_k(t) o ... o M_1(t), from the position at the start. By the chain rule,
 /// M' M^-1 = v_k + A_k (v_(k-1) + A_(k-1) (...)) with the linear parts A_i of M_i, each velocity v_i at the
-/// point drawn back through M_k, ..., M_(i+1).
+/// point mapped back through M_k, ..., M_(i+1).
 template<int D>
 class Sequence final : public Motion<D> {
 public:

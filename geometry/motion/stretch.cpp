@@ -20,7 +20,7 @@ namespace {
 
 using namespace detail;
 
-/// The facets of some patches, and which of their vertices are led by other patches.
+/// The facets of some patches, and their vertices, divided into followers and leaders.
 struct StretchedPart {
     std::vector<Index> facets;  ///< of the boundary, ascending
     std::vector<Index> inner;   ///< vertices that follow, ascending
@@ -49,7 +49,7 @@ StretchedPart part_of(const Boundary<D>& boundary, const std::set<PatchNumber>& 
     return part;
 }
 
-/// Sets of vertices joined by facets: union by smallest vertex.
+/// Connected sets of vertices, by union-find with the smallest vertex as representative.
 class JoinedVertices {
 public:
     explicit JoinedVertices(std::size_t count) : parent_(count) {
@@ -115,7 +115,7 @@ std::vector<WeightedEdge> weighted_edges(const Boundary<3>& boundary, std::span<
     return cotangent_edges(boundary, facets);
 }
 
-/// Laplace's equation for the displacements of the inner vertices, those of the leading ones given.
+/// Solves Laplace's equation for the displacements of the inner vertices, given those of the leading ones.
 template<int D>
 class HarmonicStretch final : public Stretch<D> {
 public:
@@ -179,14 +179,14 @@ private:
         }
     }
 
-    /// A row for each inner vertex; entries for the same place are summed.
+    /// A row per inner vertex; entries at the same position are summed.
     Matrix matrix(std::size_t columns, const std::vector<Entry>& entries) const {
         Matrix result(static_cast<Eigen::Index>(part_.inner.size()), static_cast<Eigen::Index>(columns));
         result.setFromTriplets(entries.begin(), entries.end());
         return result;
     }
 
-    /// Of each vertex of the part among the inner or the leading ones.
+    /// Number of each vertex of the part among the inner or the leading ones.
     std::vector<int> places() const {
         std::vector<int> place(start_.size(), -1);
         for (const auto* vertices : {&part_.inner, &part_.leading}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paths by Boost.Numeric.Odeint, whose steppers see a chunk of points as one flat state.
+// Paths by Boost.Numeric.Odeint, whose steppers treat a chunk of points as one flat state.
 #include "slabhull/geometry/trajectory.h"
 
 #include "geometry/basics/vector_algebra.h"
@@ -38,11 +38,11 @@ namespace odeint = boost::numeric::odeint;
 
 constexpr std::array<std::string_view, 5> names{"euler", "heun", "rk4", "dopri5", "exact"};
 
-/// Points per chunk: a state and its few stages stay in the second-level cache, and the adaptive scheme,
-/// which takes one substep for a chunk, sees the same chunks for any number of threads.
+/// Points per chunk: a state and its few stages fit the second-level cache. The adaptive scheme has one
+/// substep per chunk, and chunks do not depend on the number of threads.
 constexpr std::size_t chunk_size = 512;
 
-/// Chunks that a thread takes at a time: fewer points are not worth another one.
+/// Chunks per task of a thread: fewer points are not worth another thread.
 constexpr std::size_t chunks_at_once = 8;
 
 constexpr int most_adaptive_steps = 10'000;
@@ -61,8 +61,8 @@ std::span<const Point<D>> as_points(const State& state) {
     return {reinterpret_cast<const Point<D>*>(state.data()), state.size() / D};
 }
 
-/// The scheme of Heun, order 2: the mean of the velocities at both ends. Odeint brings the machinery, not the
-/// tableau.
+/// Heun's scheme, order 2: the mean of the velocities at both ends. Odeint provides generic Runge-Kutta
+/// steps, but not this tableau.
 odeint::explicit_generic_rk<2, 2, State> heun() {
     const boost::array<double, 1> second_stage{{1.0}};
     const boost::array<double, 2> weights{{0.5, 0.5}};
@@ -75,7 +75,7 @@ struct Course {
     double from;
     double to;
     const TrajectoryOptions& options;
-    double length; ///< that tolerances refer to
+    double length; ///< length to which tolerances are relative
 
     double substep() const { return (to - from) / options.substeps; }
 };
@@ -97,7 +97,7 @@ void take_substeps(Stepper stepper, const Velocity& velocity, State& x, const Co
 
 template<class Velocity>
 void take_adaptive_substeps(const Velocity& velocity, State& x, const Course& course) {
-    // Absolute in length: a tolerance relative to coordinates would loosen far from the origin.
+    // Tolerance absolute in length: one relative to coordinates would be too loose far from the origin.
     auto stepper = odeint::make_controlled(course.options.tolerance * course.length, 0.0,
                                            odeint::runge_kutta_dopri5<State>{});
     double t = course.from;
@@ -138,7 +138,7 @@ void integrate(const Motion<D>& motion, State& x, const Course& course) {
     }
 }
 
-/// Diagonal of the points' bounding box; where there is none, their distance from the origin, or 1.
+/// Diagonal of the points' bounding box; if that is zero, their distance from the origin, or 1.
 template<int D>
 double extent(std::span<const Point<D>> x) {
     if (x.empty()) {

@@ -9,13 +9,13 @@
 
 namespace slabhull::detail {
 
-/// The linear map x -> w x x.
+/// The cross product x -> w x x as a linear map.
 inline AffineMap<3> cross_map(const Point<3>& w) {
     return {{{{0, -w[2], w[1]}, {w[2], 0, -w[0]}, {-w[1], w[0], 0}}}, {}};
 }
 
-/// The linear map x -> axis x x for the axis with length 1: a quarter turn in the plane across it.
-/// Throws UsageError when it has no direction.
+/// The linear map x -> axis x x for the normalised axis: a quarter turn in the plane normal to it.
+/// Throws UsageError if the axis is zero.
 inline AffineMap<3> quarter_turn(const Point<3>& axis) {
     return cross_map(unit_vector(axis, "the axis of a rotation"));
 }
@@ -33,8 +33,8 @@ AffineMap<D> scaled(double factor, AffineMap<D> map) {
     return map;
 }
 
-/// The turn by an angle about the axis of the quarter turn W, through the origin. Rodrigues' formula,
-/// R = 1 + sin(angle) W + (1 - cos(angle)) W^2; it holds in the plane, too.
+/// Rotation by an angle about the axis of the quarter turn W, through the origin. Rodrigues' formula,
+/// R = 1 + sin(angle) W + (1 - cos(angle)) W^2, which holds in the plane, too.
 template<int D>
 AffineMap<D> turn_by(double angle, const AffineMap<D>& quarter) {
     const double versine = 2 * std::sin(angle / 2) * std::sin(angle / 2);

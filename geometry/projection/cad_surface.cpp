@@ -60,8 +60,8 @@ using namespace detail;
 
 // --- closest points
 
-/// The best point so far. Edges count as farther by their tolerance: where the model's faces and edges part
-/// by that much, a face is right.
+/// The closest point so far. The tolerance of an edge is added to its distance: where the model's faces and
+/// edges disagree by that much, the face is right.
 struct Best {
     gp_Pnt point;
     double distance = std::numeric_limits<double>::infinity();
@@ -78,7 +78,7 @@ Point<3> as_point(const gp_XYZ& p) {
     return {p.X(), p.Y(), p.Z()};
 }
 
-/// A face, ready for questions from one thread.
+/// A closest-point query on a face, for one thread.
 class FaceProbe {
 public:
     explicit FaceProbe(const TopoDS_Face& face)
@@ -135,7 +135,7 @@ private:
                 as_point(duu.XYZ()),   as_point(duv.XYZ()), as_point(dvv.XYZ())};
     }
 
-    /// Some for each piece of the spline, so that each bend is seen.
+    /// Several samples per piece of the spline, so that no bend is missed.
     std::array<std::size_t, 2> samples() const {
         constexpr int per_span = 6;
         constexpr int least = 24;
@@ -148,11 +148,11 @@ private:
 
     BRepAdaptor_Surface surface_;
     BRepTopAdaptor_FClass2d inside_;
-    Extrema_ExtPS extrema_;                  ///< of a simple shape ...
-    std::optional<ParametricSearch> search_; ///< ... or a spline
+    Extrema_ExtPS extrema_;                  ///< for a simple shape ...
+    std::optional<ParametricSearch> search_; ///< ... or for a spline
 };
 
-/// An edge with its ends, ready for questions from one thread.
+/// A closest-point query on an edge with its ends, for one thread.
 class EdgeProbe {
 public:
     explicit EdgeProbe(const TopoDS_Edge& edge)
@@ -218,8 +218,8 @@ struct Piece {
     }
 };
 
-/// Answers for all pieces, one thread at a time. Probes of spline faces are slow to make, so each is made at
-/// the first question that needs it.
+/// Queries all pieces, for one thread at a time. Probes of spline faces are slow to make, so each is made
+/// when first needed.
 class Probes {
 public:
     explicit Probes(const std::vector<Piece>& pieces)
@@ -230,7 +230,7 @@ public:
         for (std::size_t i = 0; i < pieces_->size(); ++i) {
             nearest_.emplace_back((*pieces_)[i].distance(x), i);
         }
-        // A heap: few pieces are looked at, so most need not be sorted.
+        // A heap: only few pieces are examined, so most need not be sorted.
         const auto later = [](const auto& a, const auto& b) { return a > b; };
         std::make_heap(nearest_.begin(), nearest_.end(), later);
         Best best;
@@ -305,15 +305,15 @@ public:
             give_back(std::move(probes));
             return foot;
         } catch (const Standard_Failure&) {
-            return nowhere; // the caller names the point
+            return nowhere; // the caller reports the point
         }
     }
 
     double tolerance() const override { return tolerance_; }
 
 private:
-    // OpenCASCADE's searches keep state, so a set of them serves one thread at a time. What they answer does
-    // not depend on what they were asked before.
+    // OpenCASCADE's searches keep state, so a set of them serves one thread at a time. Their results do not
+    // depend on earlier queries.
     std::unique_ptr<Probes> take_probes() const {
         const std::lock_guard lock{mutex_};
         if (idle_.empty()) {
@@ -337,8 +337,7 @@ private:
 
 // --- reading
 
-/// Millimetres in the unit of length that the model declares first; where it declares none, OpenCASCADE's
-/// own.
+/// The model's first unit of length in millimetres; without one, OpenCASCADE's own.
 double length_unit(const STEPControl_Reader& reader) {
     using WithUnits = StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext;
     using WithUncertainty = StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx;
@@ -352,13 +351,13 @@ double length_unit(const STEPControl_Reader& reader) {
         }
         STEPConstruct_UnitContext factors;
         if (!units.IsNull() && factors.ComputeFactors(units) == 0 && factors.LengthDone()) {
-            return factors.LengthFactor() * reader.SystemLengthUnit(); // it is relative to that
+            return factors.LengthFactor() * reader.SystemLengthUnit(); // relative to the system's unit
         }
     }
     return reader.SystemLengthUnit();
 }
 
-/// Null where there is no model.
+/// Null if there is no model.
 TopoDS_Shape read_step(std::istream& in) {
     STEPControl_Reader reader;
     if (reader.ReadStream("model", in) != IFSelect_RetDone) {
@@ -375,7 +374,7 @@ TopoDS_Shape read_brep(std::istream& in) {
     return shape;
 }
 
-/// OpenCASCADE's readers complain on stdout, which is for results; this listens instead.
+/// Captures the complaints that OpenCASCADE's readers print to stdout, which is for results.
 class Complaints {
 public:
     Complaints() : stdout_{std::cout.rdbuf(text_.rdbuf())} {
@@ -399,7 +398,7 @@ private:
 };
 
 TopoDS_Shape read_shape(std::istream& in, CadFormat format, const std::string& name) {
-    static std::mutex one_at_a_time; // the readers share tables
+    static std::mutex one_at_a_time; // the readers share global tables
     const std::lock_guard lock{one_at_a_time};
     const Complaints complaints;
     TopoDS_Shape shape;

@@ -16,12 +16,12 @@ namespace slabhull::detail {
 template<int D>
 using FacetCorners = std::array<Point<D>, D>;
 
-/// A point of a facet.
+/// The point of a facet closest to a given point.
 template<int D>
 struct FootOnFacet {
     Point<D> point{};
     double distance = 0;
-    int rank = 0; ///< corners that do not hold it: 0 inside a facet, D - 1 at a corner
+    int rank = 0; ///< number of corners that do not contribute: 0 inside a facet, D - 1 at a corner
 };
 
 template<int D>
@@ -29,12 +29,12 @@ FootOnFacet<D> closest_on_segment(const Point<D>& x, const Point<D>& a, const Po
     const Point<D> edge = minus(b, a);
     const double square = dot(edge, edge);
     const double place = square > 0 ? dot(minus(x, a), edge) / square : 0;
-    constexpr int inside = D - 2; // an edge of a triangle is on its rim
+    constexpr int inside = D - 2; // the inside of a triangle's edge is on the triangle's rim
     if (!(place > 0 && place < 1)) {
         const Point<D>& end = place <= 0 ? a : b;
         return {end, norm(minus(x, end)), inside + 1};
     }
-    // From the nearer end: an edge gives the same point in both directions.
+    // Computed from the nearer end, so that both directions of an edge give the same point.
     const Point<D> foot =
         place <= 0.5 ? plus(a, times(place, edge)) : minus(b, times(dot(minus(b, x), edge) / square, edge));
     return {foot, norm(minus(x, foot)), inside};
@@ -56,8 +56,8 @@ inline FacetCorners<3> longest_edge_first(FacetCorners<3> t) {
     return t;
 }
 
-/// In orthonormal coordinates along the longest edge ab and across it, so that even in a needle of a triangle
-/// the place along it keeps its digits:
+/// Uses orthonormal coordinates along the longest edge ab and normal to it, so that even in a needle the
+/// position along it keeps its digits:
 ///
 ///          c = (along, height)
 ///         / `.

@@ -21,7 +21,7 @@ namespace {
 
 using namespace detail;
 
-/// A surface where it lies now.
+/// A surface at its present placement.
 template<int D>
 class Wall {
 public:
@@ -38,15 +38,15 @@ private:
     AffineMap<D> inverse_;
 };
 
-/// A point with its feet on all surfaces.
+/// A point with its closest points on all surfaces.
 template<int D>
 struct Stance {
     Point<D> x;
     std::vector<Point<D>> feet;
-    double gap = 0; ///< distance to the farthest foot
+    double gap = 0; ///< distance to the farthest of these
 };
 
-/// The plane through `foot` across `normal`, a unit vector.
+/// The plane through `foot` with the unit normal `normal`.
 template<int D>
 struct TangentPlane {
     Point<D> foot;
@@ -64,7 +64,7 @@ public:
         }
     }
 
-    /// Steps until there is no more progress, or none to be made: points that are on all surfaces stay.
+    /// Iterates until the gap no longer shrinks or is zero to rounding: points on all surfaces stay.
     Point<D> near(const Point<D>& x, std::size_t number) const {
         constexpr int most_steps = 200;
         const double rounding = 2 * std::numeric_limits<double>::epsilon() * extent_;
@@ -93,8 +93,8 @@ private:
         return stance;
     }
 
-    /// Newton's step where it closes the gap well, else alternating projections: slow where surfaces meet at
-    /// a small angle, but steady where they have edges.
+    /// Newton's step if it closes the gap well, else alternating projections, which are slow where surfaces
+    /// meet at a small angle, but robust at their edges.
     Stance<D> better(const Stance<D>& now) const {
         Stance<D> next = stand(on_tangent_planes(now));
         if (next.gap <= 0.5 * now.gap) {
@@ -108,10 +108,10 @@ private:
         return walked.gap < next.gap || !std::isfinite(next.gap) ? walked : next;
     }
 
-    /// The point closest to x that the tangent planes have in common; the least squares' where they have
-    /// none.
+    /// The common point of the tangent planes closest to x; the least-squares point if they have none in
+    /// common.
     Point<D> on_tangent_planes(const Stance<D>& now) const {
-        // Normals at smaller angles are the same up to the rounding of their finite steps.
+        // Normals at smaller angles are equal up to the rounding errors of their finite differences.
         constexpr double same_direction = 1e-9;
         const auto count = static_cast<Eigen::Index>(walls_.size());
         Eigen::Matrix<double, Eigen::Dynamic, D> normals{count, D};
@@ -132,9 +132,9 @@ private:
         return moved;
     }
 
-    /// From a point well off the surface, its foot and the way there are the tangent plane. Near the surface
-    /// rounding would turn that way, so look from farther off, but near enough for the strongest curvature
-    /// to do no harm.
+    /// The tangent plane's normal is the direction from a foot to its point. Near the surface rounding would
+    /// spoil that direction, so a point farther off is used, but near enough that the strongest curvature
+    /// does no harm.
     TangentPlane<D> tangent_plane(const Wall<D>& wall, const Point<D>& x, const Point<D>& foot) const {
         const double off = 1e-7 * extent_;
         const double readable = 1e-11 * extent_;
@@ -170,7 +170,7 @@ private:
 
     void require_meeting(const Stance<D>& best, const Point<D>& x, std::size_t number) const {
         constexpr double rounding = 1e-13;
-        if (best.gap <= std::max(rounding * extent_, loose_)) { // not so for NaN
+        if (best.gap <= std::max(rounding * extent_, loose_)) { // false for NaN
             return;
         }
         throw GeometryError{

@@ -25,8 +25,8 @@ namespace {
 
 using namespace detail;
 
-// CGAL's tree is for boxes in space, so curves of the plane lie in z = 0. It sorts and visits the facets; the
-// closest point of one is ours, since CGAL's needs facets with an extent.
+// CGAL's tree is for boxes in space, so curves of the plane lie in z = 0. The tree sorts and traverses the
+// facets; the closest point of a facet is computed here, since CGAL needs facets with an extent.
 using TreeKernel = CGAL::Simple_cartesian<double>;
 
 template<int D>
@@ -38,7 +38,7 @@ TreeKernel::Point_3 cgal(const Point<D>& p) {
     }
 }
 
-/// A facet as CGAL wants to see it.
+/// A facet as a primitive of CGAL's tree.
 template<int D>
 class TreeFacet {
 public:
@@ -66,8 +66,7 @@ private:
 template<int D>
 using TreeTraits = CGAL::AABB_traits<TreeKernel, TreeFacet<D>>;
 
-/// What CGAL's traversal asks while it looks for the facet closest to a point: nodes by their distance, the
-/// nearer child first.
+/// Traversal traits for the facet closest to a point: nodes by distance, the nearer child first.
 template<int D>
 class ClosestFacet {
 public:
@@ -102,8 +101,8 @@ public:
     }
 
 private:
-    /// Distances up to here are the least one up to rounding. On the surface it is no matter which facet is
-    /// taken, and the one that holds the point exactly is best: corners stay where they are.
+    /// Largest distance that equals the least one up to rounding. On the surface all such facets are equally
+    /// good, except that one which contains the point exactly keeps corners in place.
     double reach() const {
         constexpr double epsilon = 8 * std::numeric_limits<double>::epsilon();
         const double rounding = epsilon * (magnitude_ + least_);
@@ -163,13 +162,13 @@ public:
                 }
             }
         }
-        // All of it now: queries from several threads find everything built.
+        // Built now, so that concurrent queries find everything built.
         tree_.build();
         tree_.accelerate_distance_queries();
     }
 
     Point<D> closest(const Point<D>& x) const override {
-        if (!all_finite(x)) { // nothing is closest, and CGAL must not be asked
+        if (!all_finite(x)) { // no point is closest, and CGAL must not be asked
             Point<D> nowhere;
             nowhere.fill(std::numeric_limits<double>::quiet_NaN());
             return nowhere;

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-// What all projections of many points share.
+// Common parts of all projections of many points.
 namespace slabhull::detail {
 
 /// Throws GeometryError naming the point unless its image is finite.
@@ -31,8 +31,8 @@ void require_on_surface(const std::array<double, N>& image, const std::array<dou
     }
 }
 
-/// Replaces each x by image(x, its number), in parallel, and reports the distances. `moved`, when not empty,
-/// receives them. The report has the same bits for any number of threads.
+/// Replaces each x by image(x, its number), in parallel, and reports the distances moved. `moved`, unless
+/// empty, receives them. The report has the same bits for any number of threads.
 template<int D, class Image>
 ProjectionReport move_points(std::span<Point<D>> x, std::span<double> moved, const Image& image) {
     constexpr std::size_t chunk_size = 1024;

@@ -11,7 +11,8 @@ namespace slabhull::detail {
 
 namespace {
 
-/// Half the squared distance as a function of (u, v) at one place, with the variables that may move there.
+/// Derivatives of half the squared distance as a function of (u, v) at one point. Variables held by the rim
+/// are fixed.
 class Slope {
 public:
     Slope(const SurfaceJet& jet, const Point<3>& x, const std::array<bool, 2>& low,
@@ -30,7 +31,7 @@ public:
         }
     }
 
-    /// Length of the gradient in space, where directions of (u, v) have their lengths on the surface.
+    /// Length of the gradient in space: directions of (u, v) are measured on the surface.
     double steepness() const {
         double square = 0;
         for (std::size_t k = 0; k < 2; ++k) {
@@ -40,14 +41,15 @@ public:
         return std::sqrt(square);
     }
 
-    /// Newton's step, or where the distance is not convex, Gauss and Newton's, which goes down always.
+    /// Newton's step, or the damped Gauss-Newton step, which always descends, where the distance is not
+    /// convex.
     std::array<double, 2> step() const {
         const double determinant = hessian_[0] * hessian_[2] - hessian_[1] * hessian_[1];
         constexpr double convex = 1e-10;
         if (hessian_[0] > 0 && determinant > convex * hessian_[0] * hessian_[2]) {
             return solve(hessian_);
         }
-        // Each direction by its own length: beside a pole one is tiny, at the pole it is nothing.
+        // Scaled per direction: beside a pole the length of one is tiny, at the pole it is zero.
         constexpr double damping = 1e-3;
         const double least = 1e-16 * (metric_[0] + metric_[2]);
         const std::array<double, 3> damped{metric_[0] * (1 + damping) + least, metric_[1],
@@ -67,7 +69,7 @@ private:
 
     std::array<double, 2> gradient_{};
     std::array<double, 3> metric_{};  ///< uu, uv, vv
-    std::array<double, 3> hessian_{}; ///< likewise
+    std::array<double, 3> hessian_{}; ///< uu, uv, vv
 };
 
 } // namespace
@@ -111,7 +113,7 @@ ParametricSearch::Parameters ParametricSearch::parameters(std::size_t sample) co
 }
 
 bool ParametricSearch::locally_closest(std::size_t sample) const {
-    // At a pole many samples are one point, each with another way down.
+    // At a pole many samples coincide, each with another direction of descent.
     constexpr double as_close = 1 - 1e-12;
     const auto [width, height] = samples_;
     const std::size_t u = sample % width;
@@ -148,8 +150,8 @@ void ParametricSearch::visit_feet(const Point<3>& x, double limit, const Visit& 
     }
 }
 
-/// Steps that go down; close to the goal the distance is flat to rounding, and steps count that make its
-/// slope smaller.
+/// Descends from `at`. Near the minimum the distance is flat to rounding; there, steps are accepted that
+/// reduce its slope.
 ParametricSearch::Parameters ParametricSearch::descend(const Point<3>& x, Parameters at) const {
     constexpr int most_steps = 50;
     const auto slope_at = [&](const Parameters& place, const SurfaceJet& jet) {

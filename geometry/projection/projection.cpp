@@ -36,13 +36,14 @@ private:
     double radius_;
 };
 
-/// With e the smallest semi-axis, the closest point y to p (both relative to the centre) has y_i = e_i^2 p_i
-/// / (e_i^2 + s) for the one s > -e^2 that puts it on the ellipsoid. In units of e, with u = 1 + s/e^2 > 0:
-///     y_i / e_i = w_i(u) = b_i / (u + gap_i),   b_i = e_i p_i / e^2,   gap_i = (e_i^2 - e^2) / e^2,   |w(u)|
-///     = 1.
-/// u is counted from the pole at s = -e^2, where points near the medial axis have their solution: no digits
-/// are lost. Points on the medial axis, b_i = 0 wherever gap_i = 0, have u = 0 and the missing part of |w| =
-/// 1 in a smallest axis.
+/// With e the smallest semi-axis, the closest point y to p (both relative to the centre) has
+/// y_i = e_i^2 p_i / (e_i^2 + s) for the one s > -e^2 that puts it on the ellipsoid. In units of e, with
+/// u = 1 + s/e^2 > 0:
+///     y_i / e_i = w_i(u) = b_i / (u + gap_i),   b_i = e_i p_i / e^2,   gap_i = (e_i^2 - e^2) / e^2,
+///     |w(u)| = 1.
+/// u is counted from the pole at s = -e^2, where points near the medial axis have their solution, so that no
+/// digits are lost. On the medial axis (b_i = 0 wherever gap_i = 0) u is 0, and a component along a smallest
+/// axis makes up for the rest of |w| = 1.
 template<int D>
 class Ellipsoid final : public ProjectionSurface<D> {
 public:
@@ -77,20 +78,20 @@ public:
     }
 
 private:
-    /// b_i below this is taken for 0: far below rounding of any position, far above where 1 / u^3 leaves the
-    /// doubles.
+    /// b_i below this counts as 0: far below the rounding of any position, and large enough that 1 / u^3 does
+    /// not overflow.
     static constexpr double vanishing = 1e-90;
 
     Point<D> shares(const Point<D>& b, double u) const {
         Point<D> w;
         for (std::size_t i = 0; i < D; ++i) {
-            w[i] = b[i] == 0 ? 0 : b[i] / (u + gap_[i]); // in this order: the divisor may be 0 with b_i
+            w[i] = b[i] == 0 ? 0 : b[i] / (u + gap_[i]); // test first: the divisor may be 0 if b_i is
         }
         return w;
     }
 
     /// A u at which no |w_i| exceeds 1 and one equals 1, so that 1 <= |w|: not right of the solution. Not
-    /// positive exactly when p lies where u = 0 may be the solution.
+    /// positive exactly if u = 0 may be the solution for p.
     double lower_bound(const Point<D>& b) const {
         double bound = 0;
         for (std::size_t i = 0; i < D; ++i) {
@@ -99,9 +100,9 @@ private:
         return bound;
     }
 
-    /// The u with |w(u)| = 1, by Newton's method on 1/|w(u)| (Hebden 1973, as in trust-region methods):
-    /// nearly linear in u and concave, hence monotone from the left and at rest after few steps; only points
-    /// at a hair's breadth from the rim of the medial axis need more.
+    /// The u with |w(u)| = 1, by Newton's method on 1/|w(u)| (Hebden 1973, as in trust-region methods). This
+    /// is nearly linear in u and concave, so iterates increase monotonically and converge in few steps,
+    /// except for points extremely close to the rim of the medial axis.
     double multiplier(const Point<D>& b, double u) const {
         constexpr int most_steps = 1000;
         for (int step = 0; step < most_steps; ++step) {
@@ -142,7 +143,7 @@ private:
     std::size_t shortest_;
 };
 
-/// A unit vector across `axis`: the coordinate direction least along it, made orthogonal.
+/// A unit vector normal to `axis`: the coordinate direction least along it, made orthogonal.
 Point<3> any_direction_across(const Point<3>& axis) {
     const auto least = std::min_element(axis.begin(), axis.end(),
                                         [](double a, double b) { return std::abs(a) < std::abs(b); });

@@ -80,8 +80,8 @@ AffineMap<D> compose(const AffineMap<D>& outer, const AffineMap<D>& inner) {
     return both;
 }
 
-/// Inverse of a similarity (a rotation or reflection, times a positive factor, plus a shift). Throws
-/// GeometryError if the map is not a similarity: singular, shearing, or not finite.
+/// Inverse of a similarity (a rotation or reflection, times a positive factor, plus a shift).
+/// Throws GeometryError if the map is not a similarity: singular, shearing, or not finite.
 template<int D>
 AffineMap<D> inverse_of_similarity(const AffineMap<D>& map);
 

@@ -46,12 +46,12 @@ struct CapMesh {
 /// SizeField made from the boundary's own spacing and `options.grading`: the mean edge is about as long.
 /// Cells on the boundary are as large as its facets, whatever the wanted spacing. Needs: the boundary of a
 /// domain, see require_domain_boundary(); call that first, with the user's names for the facets. For D = 3 it
-/// is called again, at 2 % of the time: TetGen crashes, or never ends, on anything else. Throws GeometryError
-/// if the mesher fails or its boundary differs from the surface; it names the facets. UsageError for a
-/// radius_edge outside [1, 100], a min_dihedral outside [0, 20], blocks outside [0, 4096], or a mesher that
-/// this build does not have (D = 3). Cost (D = 3): about 6 microseconds per tetrahedron, and some 300 bytes
-/// of each in the child. Deterministic, whatever the number of threads; with 0 blocks, for the same number of
-/// blocks.
+/// is called again, at 2 % of the time: TetGen crashes, or never ends, on anything else.
+/// Throws GeometryError if the mesher fails or its boundary differs from the surface; it names the facets.
+/// UsageError for a radius_edge outside [1, 100], a min_dihedral outside [0, 20], blocks outside [0, 4096],
+/// or a mesher that this build does not have (D = 3). Cost (D = 3): about 6 microseconds per tetrahedron, and
+/// some 300 bytes of each in the child. Deterministic, whatever the number of threads; with 0 blocks, for the
+/// same number of blocks.
 template<int D>
 CapMesh<D> mesh_cap(const Surface<D>& surface, const CapOptions& options);
 
@@ -73,8 +73,9 @@ CapMesh<3> mesh_cap<3>(const Boundary<3>& boundary, const Surface<3>& surface, c
 /// Proves that a cap mesh fills the inside of a surface. Its points begin with the surface's, bit for bit.
 /// Its boundary facets are the surface's, orientation included. Every cell is positively oriented (exactly)
 /// and on the other side of each shared facet from its neighbour. Every point is used. If the surface bounds
-/// a domain, this excludes overlaps and gaps. Throws GeometryError naming what is missing, added, inverted or
-/// unmatched. Cost: linear; about 2 % of the meshing.
+/// a domain, this excludes overlaps and gaps.
+/// Throws GeometryError naming what is missing, added, inverted or unmatched.
+/// Cost: linear; about 2 % of the meshing.
 template<int D>
 void verify_cap(const CapMesh<D>& mesh, const Surface<D>& surface);
 

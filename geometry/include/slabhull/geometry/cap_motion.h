@@ -31,8 +31,8 @@ struct MovedCap {
 /// Moves the inner vertices of a cap with its boundary: vertex boundary[b] goes to targets[b], bit for bit.
 /// The others are displaced by the affine map that is the least-squares fit to the boundary's displacement,
 /// plus a solution of div(kappa grad u) = 0 for the remainder. So an affine motion is reproduced to rounding.
-/// Any other is taken up by large, round cells, while small or flat ones near a body move with it (kappa:
-/// geometry/stiffness.h; stiffening by cell size as in Stein, Tezduyar and Benney, Journal of Applied
+/// Any other motion deforms large, round cells, while small or flat ones near a body move with it (kappa:
+/// geometry/meshing/stiffness.h; stiffening by cell size as in Stein, Tezduyar and Benney, Journal of Applied
 /// Mechanics 70, 2003).
 ///
 /// The caller judges the result, by `sound` and `smallest_angle`; nothing is assumed about the displacement.
@@ -41,8 +41,9 @@ struct MovedCap {
 ///
 /// Calls keep no state: the same cap and targets give the same bytes, with any number of threads.
 /// Needs: positive cells; `boundary` has all vertices of their boundary facets, each once (more are allowed),
-/// as many as `targets`. Throws UsageError for no boundary, for targets of another number and for vertices
-/// out of range; GeometryError naming an inner vertex around which the cells do not fill a ball.
+/// as many as `targets`.
+/// Throws UsageError for no boundary, for targets of another number and for vertices out of range;
+/// GeometryError naming an inner vertex around which the cells do not fill a ball.
 /// Cost: near-linear; some 0.35 microseconds per tetrahedron on one thread, a tenth of mesh_cap(), and 60
 /// bytes of each.
 template<int D>

@@ -29,10 +29,11 @@ enum class TimeInterpolation {
 
 /// A motion through the rows: track i is at start[i] + displacement(t). A single row is valid at its time
 /// only. Stores the rows: 8 D bytes per track and time. positions() reads two of them (linear) or at most six
-/// (cubic). Throws UsageError, with the entity "row" (counted from 0) if one is at fault: no rows, times or
-/// tracks not strictly ascending, a value not finite, different lengths. positions() throws GeometryError for
-/// a track without displacements, and, naming the times of the rows, at times outside them by more than a
-/// billionth of their range.
+/// (cubic).
+/// Throws UsageError, with the entity "row" (counted from 0) if one is at fault: no rows, times or tracks not
+/// strictly ascending, a value not finite, different lengths. positions() throws GeometryError for a track
+/// without displacements, and, naming the times of the rows, at times outside them by more than a billionth
+/// of their range.
 template<int D>
 NodalMotionPointer<D> displacement_series(DisplacementRows<D> rows, TimeInterpolation interpolation);
 

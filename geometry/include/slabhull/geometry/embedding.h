@@ -46,7 +46,8 @@ template<int D>
 void require_domain_boundary(const Surface<D>& surface, const FacetNaming& naming, bool is_input);
 
 /// The same for a boundary with the positions of `surface`: connectivity is known, so only positions are
-/// checked. Throws GeometryError. Cost: that of find_crossings().
+/// checked.
+/// Throws GeometryError. Cost: that of find_crossings().
 template<int D>
 void require_domain_boundary(const Boundary<D>& boundary, const Surface<D>& surface,
                              const FacetNaming& naming = {});

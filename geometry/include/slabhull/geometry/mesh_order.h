@@ -11,7 +11,8 @@ namespace slabhull {
 /// Sorts the points after the first `fixed_points`, and all cells by their centres, along a Z curve (Morton
 /// order), so that points near in space are mostly near in memory. Cells keep the order of their corners;
 /// neighbours are renumbered. Entries at the same place of the curve, of 2^(64 / D) per axis, keep their
-/// order. Cost: a sort, some 24 extra bytes for each cell.
+/// order.
+/// Cost: a sort, some 24 extra bytes for each cell.
 template<int D>
 void order_along_curve(CapMesh<D>& mesh, std::size_t fixed_points);
 

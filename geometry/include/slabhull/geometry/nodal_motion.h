@@ -18,8 +18,8 @@ class NodalMotion {
 public:
     virtual ~NodalMotion() = default;
 
-    /// x[i] = position of track tracks[i] at time t; the spans are equally long. Throws GeometryError naming
-    /// the unknown track, or the range of known times.
+    /// x[i] = position of track tracks[i] at time t; the spans are equally long.
+    /// Throws GeometryError naming the unknown track, or the range of known times.
     virtual void positions(std::span<const TrackId> tracks, double t, std::span<Point<D>> x) const = 0;
 
     /// As Motion::row_times().
