@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    /// The vertices on inner levels, and the times of all levels.
+    /// Finds the vertices on inner levels and the times of all levels.
     void find_levels() {
         between_ = by_track(hull_, hull_.initial_points, hull_.terminating_points_begin(), false);
         std::vector<double>& times = columns_.times;
@@ -181,7 +181,7 @@ private:
         }
     }
 
-    /// Vertices inside on inner levels come after the hull's.
+    /// Numbers the inner vertices on inner levels, after the hull's.
     void number_inside() {
         auto next = static_cast<Index>(hull_.points.size());
         for (std::size_t level = 1; level < columns_.layers(); ++level) {
@@ -244,7 +244,7 @@ private:
         return result;
     }
 
-    /// Each cell must be in both caps, in any order.
+    /// Checks that both caps have the same cells, in any order.
     void compare_caps() const {
         const std::size_t begin = hull_.terminating_begin();
         std::vector<Index> lost; // cells whose partner of the same number differs
