@@ -24,7 +24,7 @@ struct MeshPiece {
     MeshColumns mesh; ///< points and cells numbered within the piece, data of both, field data, groups
     std::size_t first_cell = 0;
     std::shared_ptr<const PointSet> points;             ///< its points in the whole mesh
-    std::vector<std::shared_ptr<const PointSet>> lower; ///< the same of each Part of the lower ones
+    std::vector<std::shared_ptr<const PointSet>> lower; ///< its lower simplices in each Part
 };
 
 /// The pieces of a mesh: ranges of cells of nearly equal length, in order, and the points that each uses, in

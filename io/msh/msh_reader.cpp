@@ -715,10 +715,10 @@ private:
     std::uint64_t elements_claimed_ = 0;
     std::uint64_t element_count_ = 0;
     TagIndex nodes_;
-    std::unique_ptr<TagIndex> element_of_; ///< of the top dimension, made when data ask for it
+    std::unique_ptr<TagIndex> element_of_; ///< elements of the top dimension; made when data need it
     std::array<std::map<PatchNumber, std::string>, 4> names_;
     std::array<std::map<std::int32_t, PatchNumber>, 4> physical_of_;             ///< an entity's group
-    std::array<std::map<std::int32_t, std::vector<std::int32_t>>, 4> groups_of_; ///< of entities in several
+    std::array<std::map<std::int32_t, std::vector<std::int32_t>>, 4> groups_of_; ///< its groups, if several
     std::array<std::map<std::int32_t, Parent>, 4> parent_of_; ///< the model's entity of a part
 };
 

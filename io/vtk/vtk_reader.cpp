@@ -50,7 +50,7 @@ bool with_legacy_type(const std::string& name, const Use& use) {
 /// The cells in the order of the file.
 struct CellList {
     Array<Index> vertices;       ///< of all cells
-    Array<std::uint8_t> corners; ///< of each cell; 255 for more
+    Array<std::uint8_t> corners; ///< number of each cell's; 255 for more
     Array<std::uint8_t> types;   ///< VTK's number for each
 };
 

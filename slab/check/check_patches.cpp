@@ -264,7 +264,7 @@ std::vector<PatchCount> check_patches(const HullView<D>& view, Findings& finding
                                   view.in_cap(c) ? "in a cap" : "on the side"));
     }
     std::vector<PatchCount> counts;
-    std::map<Index, std::int64_t> unknown; // by the first cell
+    std::map<Index, std::int64_t> unknown; // patch by its first cell
     for (const auto& [number, use] : count_side_patches(view)) {
         const PatchList& patches = view.hull.patches;
         const bool known = std::any_of(patches.begin(), patches.end(),

@@ -129,8 +129,8 @@ private:
     Filling<D>& filling_;
     std::vector<Array<Point<D>>> levels_; ///< by level, the places of the initial cap's vertices
     Array<Simplex<D>> cells_;
-    std::vector<Index> column_of_; ///< of the initial cap's vertices
-    std::vector<Index> boundary_;  ///< of the initial cap's vertices, those on the side
+    std::vector<Index> column_of_; ///< column of each vertex of the initial cap
+    std::vector<Index> boundary_;  ///< the initial cap's vertices on the side
 };
 
 } // namespace

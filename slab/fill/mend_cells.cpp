@@ -211,7 +211,7 @@ private:
     }
 
     Filling<D>& filling_;
-    Index levels_end_; ///< of vertices on levels; centres follow
+    Index levels_end_; ///< end of the vertices on levels; centres follow
     double time_scale_;
     std::vector<Index> movable_;
     std::vector<std::vector<Index>> stars_;

@@ -59,7 +59,7 @@ private:
     const SlabColumns<D>& columns_;
     Array<std::uint8_t> staircase_;
     std::vector<std::pair<Index, Facet<D>>> others_; ///< swept facets not staircases, their columns
-    std::vector<std::array<Index, 2>> edges_;        ///< of quadrilaterals, ascending
+    std::vector<std::array<Index, 2>> edges_;        ///< edges below quadrilaterals, ascending
     std::vector<QuadSplit> splits_;                  ///< by layer, then as edges_
 };
 

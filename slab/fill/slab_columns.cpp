@@ -296,9 +296,9 @@ private:
     const Hull<D>& hull_;
     Filling<D>& filling_;
     SlabColumns<D> columns_;
-    std::vector<OnTrack> first_;   ///< of the initial cap
-    std::vector<OnTrack> between_; ///< on inner levels of the side
-    std::vector<Index> column_of_; ///< of the hull's vertices in caps
+    std::vector<OnTrack> first_;   ///< vertices of the initial cap, by track
+    std::vector<OnTrack> between_; ///< vertices on the side's inner levels
+    std::vector<Index> column_of_; ///< column of each of the hull's cap vertices
 };
 
 } // namespace

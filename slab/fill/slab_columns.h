@@ -17,8 +17,8 @@ namespace slabhull {
 template<int D>
 struct SlabColumns {
     std::vector<double> times;       ///< of the levels
-    std::size_t count = 0;           ///< of columns
-    Array<Index> vertex;             ///< of the filling: [level * count + column]
+    std::size_t count = 0;           ///< number of columns
+    Array<Index> vertex;             ///< the filling's vertex at [level * count + column]
     Array<std::uint8_t> on_boundary; ///< of each column: whether it is on the hull
 
     Array<Simplex<D>> cells;       ///< those of the initial cap, in its order, each with ascending columns

@@ -69,8 +69,8 @@ private:
     BoundaryMover<D>& mover_;
     const Boundary<D>& boundary_;
     const LayerOptions& options_;
-    int samples_;               ///< of a layer, at least
-    std::vector<double> rows_;  ///< of tables, within the slab
+    int samples_;               ///< least number in a layer
+    std::vector<double> rows_;  ///< times of tables' rows within the slab
     std::vector<Index> moving_; ///< facets that move
     std::vector<double> allowed_;
     std::vector<double> edges_; ///< mean at each vertex, at the layer's start ...

@@ -14,7 +14,7 @@ struct EmbeddingSummary {
     bool all_listed = true;
     bool caps_proven = false;     ///< each cap is embedded, so only the side's cells were tested
     std::size_t tested_cells = 0; ///< cells tested for crossings
-    std::size_t stars = 0;        ///< of cells around vertices
+    std::size_t stars = 0;        ///< stars of vertices that were examined
     std::size_t proven_stars = 0; ///< stars proven without testing pairs
     std::size_t group_pairs = 0;  ///< pairs of groups of cells that do not touch
     std::size_t tested_pairs = 0; ///< pairs of cells, in stars and groups that were not proven as a whole

@@ -37,8 +37,8 @@ struct FillingReport : CheckResult {
     std::size_t boundary_facets = 0;                         ///< facets in one simplex
     std::array<double, 2> time{};                            ///< of the vertices
     double volume = 0;                                       ///< of all simplices
-    double enclosed = 0;                                     ///< by the facets in one simplex
-    double smallest_volume = 0;                              ///< of a simplex, signed
+    double enclosed = 0;                                     ///< volume enclosed by the facets in one simplex
+    double smallest_volume = 0;                              ///< signed volume of a simplex
     std::map<std::int64_t, std::size_t> facets_by_attribute; ///< as claimed
 };
 

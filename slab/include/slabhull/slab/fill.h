@@ -18,7 +18,7 @@ namespace slabhull {
 ///
 /// Needs: a sound hull (check_hull()) whose vertices on levels all have tracks.
 /// Throws GeometryError when the caps are not one mesh, naming the cells that differ; naming cell and layer
-/// where a simplex would be inside out, with what helps: more layers, or a shorter slab.
+/// where a simplex would be inverted, and the remedy: more layers, or a shorter slab.
 /// LimitError when the filling is too large for its indices.
 /// Cost: linear, but for move_cap() on each inner level. The same bytes with any number of threads.
 template<int D>

@@ -32,7 +32,7 @@ struct SlabSettings {
 template<int D>
 struct Slab {
     Hull<D> hull;
-    Array<Facet<D>> terminating_facets; ///< of the terminating cap's boundary, in the cap's own numbers
+    Array<Facet<D>> terminating_facets; ///< boundary of the terminating cap, in the cap's own numbers
     std::map<PatchNumber, ProjectionReport> projected;
     bool cap_moved = false; ///< the terminating cap is the initial one, moved; else meshed anew ...
     std::optional<double> moved_angle;        ///< ... its smallest angle (degrees) after moving, if tried

@@ -23,8 +23,8 @@ struct Section {
     Surface<D> surface;                ///< closed, outward from the domain, with the patches of the side
     Array<Neighbors<D - 1>> neighbors; ///< the facet across each ridge
     Array<Index> hull_cell;            ///< hull cell that each facet is cut from
-    Array<PersistentId> vertex_ids;    ///< of the hull's vertex where the level passes through one, else -1
-    Array<TrackId> track_ids;          ///< where the level crosses a track, else no_track
+    Array<PersistentId> vertex_ids;    ///< id of a hull's vertex at the level, else -1
+    Array<TrackId> track_ids;          ///< the track that the level crosses, else no_track
 };
 
 struct SliceOptions {
