@@ -28,7 +28,7 @@ std::filesystem::path followed(const std::filesystem::path& path) {
     return no_such_file ? path : target;
 }
 
-/// Beside the target, or rename() would copy between disks; told apart by process and count.
+/// A temporary name beside the target, as rename() does not work between disks; unique by process and count.
 std::filesystem::path temporary_beside(const std::filesystem::path& target) {
     static std::atomic<unsigned> count{0};
     auto name = target.filename();
@@ -49,8 +49,8 @@ pid_t writer_of(const std::string& name) {
     return error == std::errc{} && read == end ? process : 0;
 }
 
-/// A new name outlives a power cut only when its folder is on disk. Some file systems cannot sync folders,
-/// which is no fault of the file.
+/// A new name survives a power cut only if its folder is synced. Errors are ignored, as some file systems
+/// cannot sync folders.
 void sync_folder(const std::filesystem::path& folder) {
     const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor >= 0) {
@@ -67,7 +67,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path)
     if (::stat(target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
         throw OutputError(fmt::format("{}: cannot be written: it is not a regular file", path_.string()));
     }
-    constexpr mode_t for_all = 0666; // the umask takes away what the user does not want
+    constexpr mode_t for_all = 0666; // reduced by the umask
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, for_all);
     if (descriptor_ < 0) {
         fail("cannot be created");
@@ -76,7 +76,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path)
 }
 
 AtomicFile::~AtomicFile() {
-    blocks_.reset(); // its thread may be writing still
+    blocks_.reset(); // its thread may still be writing
     if (descriptor_ >= 0) {
         ::close(descriptor_);
     }

@@ -24,7 +24,7 @@ void BlockWriter::advance(std::size_t size) {
     }
 }
 
-/// Gives the full block to the thread, and waits until the next one is free.
+/// Passes the full block to the thread and waits until the next one is free.
 void BlockWriter::hand_over() {
     if (!thread_.joinable()) {
         thread_ = std::thread{[this] { work(); }};
@@ -37,7 +37,7 @@ void BlockWriter::hand_over() {
     ring_[current_].size = 0;
 }
 
-/// Writes one block after the other; after an error, it only takes them.
+/// Writes block after block; after an error, discards them.
 void BlockWriter::work() {
     for (std::size_t next = 0;; next = (next + 1) % blocks) {
         std::unique_lock guard{lock_};
@@ -79,7 +79,7 @@ int BlockWriter::error() {
     return error_;
 }
 
-/// Whole pages directly, unless the block is all of a short file; what is left through the page cache.
+/// Writes whole pages directly, unless the block is all of a short file, and the rest through the page cache.
 int BlockWriter::write_block(const Block& block) {
     constexpr std::size_t page = 4096;
     const bool direct = !direct_refused_ && (direct_ || block.size == block_bytes);
@@ -98,11 +98,11 @@ int BlockWriter::write_block(const Block& block) {
     return 0;
 }
 
-/// All of them, or the error.
+/// Writes all bytes; returns the errno, 0 for none.
 int BlockWriter::write_bytes(const char* bytes, std::size_t size) {
     while (size > 0) {
         const ssize_t written = ::write(descriptor_, bytes, size);
-        if (written < 0 && errno == EINVAL && direct_) { // it was promised, but not kept
+        if (written < 0 && errno == EINVAL && direct_) { // direct writing was accepted but fails
             set_direct(false);
             direct_refused_ = true;
         } else if (written < 0 && errno != EINTR) {

@@ -12,25 +12,25 @@
 
 namespace slabhull::io {
 
-/// Bytes on their way to a file, through three large blocks: while one is filled, a thread writes those
-/// before it. They go past the system's page cache, which where we measured took a gigabyte per second and
-/// the disk three; where the file system does not let them, and a short file's, go through it.
-/// Errors are kept as error() until somebody asks.
+/// Writes bytes to a file through three large blocks: while one is filled, a thread writes those before it.
+/// Writing bypasses the page cache, which we measured at one gigabyte per second where the disk took three.
+/// Short files, and file systems without direct writing, use the cache.
+/// Errors are kept for error().
 class BlockWriter {
 public:
-    /// The descriptor stays the caller's.
+    /// The caller still owns the descriptor.
     explicit BlockWriter(int descriptor) : descriptor_{descriptor} {}
     ~BlockWriter() { stop(); }
     BlockWriter(const BlockWriter&) = delete;
     BlockWriter& operator=(const BlockWriter&) = delete;
 
-    /// What is free of the block that is being filled, at least a byte.
+    /// The free part of the current block, at least a byte.
     std::span<char> room();
-    /// The first `size` bytes of room() are filled.
+    /// Marks the first `size` bytes of room() as filled.
     void advance(std::size_t size);
-    /// Gives all bytes to the system. Nothing may follow.
+    /// Writes all remaining bytes. Nothing may be written after it.
     void finish();
-    /// The first error's errno, 0 for none. All that follows it is lost.
+    /// The first error's errno, 0 for none. All bytes after the error are lost.
     int error();
 
 private:
@@ -38,9 +38,9 @@ private:
     static constexpr std::size_t blocks = 3;
 
     struct Block {
-        Array<char> bytes; ///< aligned as direct writing wants it
+        Array<char> bytes; ///< aligned for direct writing
         std::size_t size = 0;
-        bool full = false; ///< and the thread's
+        bool full = false; ///< and owned by the thread
     };
 
     void hand_over();

@@ -7,7 +7,7 @@
 
 namespace slabhull::io {
 
-/// The value that stands at `place`, in the machine's byte order or in the opposite one.
+/// The value stored at `place`, in the machine's byte order or in the opposite one.
 template<class T>
 T load(const char* place, bool swapped) {
     std::array<char, sizeof(T)> bytes;

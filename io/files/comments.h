@@ -8,7 +8,7 @@
 
 namespace slabhull::io {
 
-/// Passes blanks, line ends and comments from '#' to the end of the line.
+/// Skips blanks, line ends and comments from '#' to the end of the line.
 inline void skip_comments(FileCursor& in) {
     in.skip_blanks();
     while (in.remaining() > 0 && in.rest().front() == '#') {
@@ -17,7 +17,7 @@ inline void skip_comments(FileCursor& in) {
     }
 }
 
-/// Reads a keyword with the comments about it; another word is an error.
+/// Reads a keyword and skips the comments around it; another word is an error.
 inline void expect_keyword(FileCursor& in, const std::string& keyword) {
     skip_comments(in);
     in.require(in.word() == keyword, fmt::format("\"{}\" was expected", keyword));

@@ -13,7 +13,7 @@ namespace slabhull::io {
 namespace {
 
 bool unpack_zlib(std::string_view packed, char* out, std::size_t size) {
-    char none = 0; // zlib wants a place even for nothing
+    char none = 0; // zlib needs a pointer even for 0 bytes
     uLongf unpacked = size;
     uLong used = packed.size();
     const int result = ::uncompress2(reinterpret_cast<Bytef*>(size > 0 ? out : &none), &unpacked,
@@ -31,12 +31,12 @@ bool unpack_lz4(std::string_view packed, char* out, std::size_t size) {
 }
 
 std::string pack_zlib(std::string_view bytes) {
-    constexpr int level = 5; // as VTK has it
+    constexpr int level = 5; // VTK's default
     uLongf size = ::compressBound(bytes.size());
     std::string packed(size, '\0');
     const int result = ::compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
                                    reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), level);
-    if (result != Z_OK) { // there is room, so only memory can be short
+    if (result != Z_OK) { // the output is large enough, so memory is short
         throw std::bad_alloc{};
     }
     packed.resize(size);
@@ -55,7 +55,7 @@ std::string pack_lz4(std::string_view bytes) {
 } // namespace
 
 std::uint64_t most_unpacked(Compressor compressor, std::uint64_t packed) {
-    // deflate spends at least 2 bits on 258 bytes, LZ4 at least a byte on 255
+    // deflate takes at least 2 bits for 258 bytes, LZ4 at least a byte for 255
     const std::uint64_t ratio = compressor == Compressor::none   ? 1
                                 : compressor == Compressor::zlib ? 1032
                                                                  : 255;

@@ -19,7 +19,7 @@ inline std::string why_no_coordinate(double x, const std::string& whose) {
                             : whose + " has a coordinate that is not a finite number";
 }
 
-/// Fails for what is no coordinate.
+/// Fails unless `x` is a coordinate.
 inline void require_coordinate(const FileCursor& in, double x, const std::string& whose) {
     if (!is_coordinate(x)) {
         in.fail(why_no_coordinate(x, whose));

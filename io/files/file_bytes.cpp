@@ -17,8 +17,8 @@
 namespace slabhull::io {
 
 namespace {
-constexpr std::size_t page = std::size_t{2} << 20;  // a huge one
-constexpr std::size_t chunk = std::size_t{4} << 20; // at once
+constexpr std::size_t page = std::size_t{2} << 20;  // a huge page
+constexpr std::size_t chunk = std::size_t{4} << 20; // read at once
 
 std::size_t whole_pages(std::size_t bytes) {
     return (bytes + page - 1) / page * page;
@@ -27,7 +27,7 @@ std::size_t whole_pages(std::size_t bytes) {
 
 FileBytes::FileBytes(const std::filesystem::path& path) : path_{path} {
     struct stat status {};
-    // Files that tell no size may have content; small ones are not worth huge pages of their own.
+    // Non-regular files may have content without a size; small files are not worth huge pages.
     if (::stat(path.c_str(), &status) == 0 &&
         (!S_ISREG(status.st_mode) || status.st_size < static_cast<off_t>(chunk))) {
         all_ = read_bytes(path);
@@ -40,7 +40,7 @@ FileBytes::FileBytes(const std::filesystem::path& path) : path_{path} {
         fail(std::strerror(errno));
     }
     size_ = static_cast<std::size_t>(status.st_size);
-    // A huge page more, as the first one begins at a multiple of its size.
+    // One huge page more, for aligning the first one.
     void* place = ::mmap(nullptr, whole_pages(size_) + page, PROT_READ | PROT_WRITE,
                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (place == MAP_FAILED) {
@@ -48,7 +48,7 @@ FileBytes::FileBytes(const std::filesystem::path& path) : path_{path} {
         throw std::bad_alloc{};
     }
     base_ = static_cast<char*>(place);
-    ::madvise(place, whole_pages(size_) + page, MADV_HUGEPAGE); // advice: small pages serve, too
+    ::madvise(place, whole_pages(size_) + page, MADV_HUGEPAGE); // only advice: small pages also work
     const auto address = reinterpret_cast<std::uintptr_t>(place);
     data_ = base_ + (whole_pages(address) - address);
 }
@@ -108,7 +108,7 @@ std::size_t FileBytes::count_lines(std::size_t end) const {
     return lines;
 }
 
-/// How many bytes it got.
+/// Returns the number of bytes read.
 std::size_t FileBytes::read(char* out, std::size_t begin, std::size_t end) const {
     std::size_t at = begin;
     while (at < end) {
@@ -125,7 +125,7 @@ std::size_t FileBytes::read(char* out, std::size_t begin, std::size_t end) const
     return at - begin;
 }
 
-/// Gives the memory back; the addresses stay ours.
+/// Releases the memory; the addresses stay reserved.
 void FileBytes::release(std::size_t begin, std::size_t end) {
     if (end > begin) {
         ::madvise(data_ + begin, end - begin, MADV_DONTNEED);

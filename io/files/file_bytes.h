@@ -9,10 +9,10 @@
 
 namespace slabhull::io {
 
-/// The bytes of a file that is read once from front to back: each has its place in memory, but only those
-/// last asked for are there, so that a file takes no memory to speak of, whatever its size. (A mapping would
-/// do the same, but a file cut short meanwhile would kill us.) What is not a regular file is read at once.
-/// All functions throw InputError when the file cannot be read.
+/// The bytes of a file that is read once from front to back. Each byte has an address, but only a window is
+/// in memory, so that even a large file takes little. (A mapping would do the same, but truncating the file
+/// meanwhile would kill us.) A file that is not a regular one is read at once. All functions throw InputError
+/// when the file cannot be read.
 class FileBytes {
 public:
     explicit FileBytes(const std::filesystem::path& path);
@@ -22,15 +22,15 @@ public:
 
     const std::filesystem::path& path() const { return path_; }
     std::size_t size() const { return size_; }
-    /// The whole file, of which only [begin, loaded_end()) of the last load() may be looked at.
+    /// The whole file, of which only [begin, loaded_end()) of the last load() may be accessed.
     std::string_view view() const { return {data_, size_}; }
     std::size_t loaded_end() const { return loaded_end_; }
-    /// Brings at least [begin, end) of the file, or what of it there is, and lets go of what stands before.
+    /// Loads at least [begin, end) as far as the file goes, and releases the bytes before it.
     void load(std::size_t begin, std::size_t end);
-    /// Copies [begin, end) to `out`, whatever is loaded; from several threads, too. Throws where the file has
+    /// Copies [begin, end) to `out`, whatever is loaded; safe from several threads. Throws if the file has
     /// become shorter.
     void copy(std::size_t begin, std::size_t end, char* out) const;
-    /// Line ends before that byte; reads the file anew, for messages.
+    /// Number of line ends before a byte, for messages; reads the file anew.
     std::size_t count_lines(std::size_t end) const;
 
 private:
@@ -40,12 +40,12 @@ private:
 
     std::filesystem::path path_;
     int descriptor_ = -1;
-    char* base_ = nullptr; ///< the addresses set aside; nullptr: all was read at once
-    char* data_ = nullptr; ///< the first of them that begins a huge page
+    char* base_ = nullptr; ///< the reserved addresses; nullptr: all was read at once
+    char* data_ = nullptr; ///< the first reserved address that begins a huge page
     std::size_t size_ = 0;
     std::size_t loaded_begin_ = 0; ///< a multiple of a page's size
     std::size_t loaded_end_ = 0;
-    Array<char> all_; ///< of what is not a regular file
+    Array<char> all_; ///< content if it was read at once
 };
 
 } // namespace slabhull::io

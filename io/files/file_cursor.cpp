@@ -45,7 +45,7 @@ Array<char> read_bytes(const std::filesystem::path& path) {
     if (file.number() < 0 || ::fstat(file.number(), &status) != 0) {
         fail_reading(path);
     }
-    constexpr std::size_t least = 65536; // pipes tell no size
+    constexpr std::size_t least = 65536; // pipes have no size
     Array<char> bytes(std::max(least, static_cast<std::size_t>(std::max<off_t>(0, status.st_size)) + 1));
     std::size_t size = 0;
     while (true) {
@@ -106,7 +106,7 @@ bool FileCursor::seek_text(std::string_view text) {
             offset_ = found;
             return true;
         }
-        // it may stand half in what is there
+        // the text may begin at the end of the loaded bytes
         offset_ = std::max(offset_, loaded_end_ - std::min(loaded_end_, text.size()));
         if (!load_more(offset_)) {
             return false;

@@ -18,16 +18,16 @@
 
 namespace slabhull::io {
 
-/// The bytes of a file, read at once. A mapping would be as fast, but a file cut short meanwhile would kill
-/// us. Throws InputError.
+/// The bytes of a file, read at once. A mapping would be as fast, but truncating the file meanwhile would
+/// kill us. Throws InputError.
 Array<char> read_bytes(const std::filesystem::path& path);
 /// ".msh" for "ROOM.MSH".
 std::string lower_extension(const std::filesystem::path& path);
 
-/// A place in a file that holds text, binary values, or both by turns: in the bytes of a whole file or of
-/// some text, or in FileBytes, which it goes through once from front to back; then what it returns by
-/// reference lasts until it goes on, and rest() is not to be asked for. Whatever is asked for beyond the end,
-/// or does not look as it should, ends in an InputError with file and line (text) or byte (binary).
+/// A reading position in text, binary values, or a mixture: in the bytes of a whole file or of a text, or in
+/// FileBytes, which are read once from front to back. With FileBytes, returned references last until the next
+/// call, and rest() must not be used. Reading beyond the end or malformed input throws InputError with file
+/// and line (text) or byte (binary).
 class FileCursor {
 public:
     FileCursor(std::string_view bytes, std::string path)
@@ -53,16 +53,16 @@ public:
         offset_ = offset;
         bring(offset, offset);
     }
-    /// Goes to the next place where the text stands; false: there is none.
+    /// Moves to the next occurrence of the text; false if there is none.
     bool seek_text(std::string_view text);
 
-    /// What is left of the line, without its end, which is passed.
+    /// The rest of the line without its end, which is skipped.
     std::string_view line();
     /// The next word after blanks and line ends; empty at the end of the file.
     std::string_view word();
     /// A text in double quotes on this line.
     std::string quoted();
-    /// Passes blanks and line ends.
+    /// Skips blanks and line ends.
     void skip_blanks();
     /// True if nothing but blanks is left.
     bool at_end();
@@ -86,14 +86,15 @@ public:
     /// The next `size` bytes.
     const char* take(std::size_t size, const char* what);
 
-    /// Throws unless `count` things of at least `least_size` bytes each can still follow: a claimed count is
-    /// trusted only after this.
+    /// Throws unless the rest of the file can hold `count` items of at least `least_size` bytes each. Claimed
+    /// counts must pass this before they are trusted.
     std::size_t plausible(std::uint64_t count, std::size_t least_size, const char* what) const;
 
     /// Throws InputError: file, place, text.
     [[noreturn]] void fail(const std::string& text) const { fail_at(offset_, text); }
     [[noreturn]] void fail_at(std::size_t offset, const std::string& text) const;
-    /// fail() unless the condition holds. Not for each entity of a file: the text is made in any case.
+    /// fail() unless the condition holds. Too slow for each entity of a file, as the text is made in any
+    /// case.
     void require(bool condition, const std::string& text) const {
         if (!condition) {
             fail(text);
@@ -102,14 +103,14 @@ public:
 
 private:
     [[noreturn]] void fail_word(std::string_view word, const char* what) const;
-    /// Bytes [begin, end), as far as there are any, and some more.
+    /// Loads at least [begin, end), as far as the file goes.
     void bring(std::size_t begin, std::size_t end) {
         if (file_ != nullptr) {
             file_->load(begin, std::min(end, bytes_.size()));
             loaded_end_ = std::min(file_->loaded_end(), bytes_.size());
         }
     }
-    /// More than there is, with all from `begin` on; false: there is no more.
+    /// Loads more bytes, keeping those from `begin` on; false at the end of the file.
     bool load_more(std::size_t begin) {
         const std::size_t before = loaded_end_;
         bring(begin, 2 * before - begin + 1);
@@ -118,7 +119,7 @@ private:
 
     FileBytes* file_ = nullptr;
     std::string_view bytes_;
-    std::size_t loaded_end_ = 0; ///< bytes that are in memory
+    std::size_t loaded_end_ = 0; ///< end of the bytes in memory
     std::string path_;
     std::size_t offset_ = 0;
     bool binary_ = false;
@@ -159,13 +160,13 @@ T FileCursor::parsed(const char* what) {
     skip_blanks();
     const char* begin = bytes_.data() + offset_;
     const char* end = bytes_.data() + loaded_end_;
-    if (begin != end && *begin == '+') { // from_chars knows no plus sign
+    if (begin != end && *begin == '+') { // from_chars accepts no plus sign
         ++begin;
     }
     T value{};
     const auto [stop, problem] = std::from_chars(begin, end, value);
     if (problem != std::errc{} || stop == end || !is_blank(*stop)) {
-        // Cut short, as "-" and "1e-" are of a number, it looks like another one or like none.
+        // A number cut off at the window's end, such as "-" or "1e-", looks like another one or like none.
         if (std::find_if(begin, end, is_blank) == end && load_more(offset_)) {
             return parsed<T>(what);
         }

@@ -6,7 +6,7 @@
 
 namespace slabhull::io {
 
-/// A name as one word of printing ASCII, as VTK does it: "x%20y" for "x y".
+/// A name as one word of printable ASCII, encoded as in VTK: "x%20y" for "x y".
 std::string percent_encoded(std::string_view text);
 std::string percent_decoded(std::string_view text);
 

@@ -9,8 +9,8 @@
 
 namespace slabhull::io {
 
-/// Bytes on disk that wait for their place in a file: a file without a name in a folder, which goes away with
-/// it. All failures are OutputErrors naming the folder.
+/// Temporary bytes on disk, to be copied into a file later: an unnamed file in a folder, deleted with the
+/// object. All failures are OutputErrors naming the folder.
 class Spool {
 public:
     explicit Spool(const std::filesystem::path& folder);
@@ -20,7 +20,7 @@ public:
 
     std::uint64_t size() const { return size_; }
     void write(std::string_view bytes);
-    /// `size` bytes from `begin` on.
+    /// Copies `size` bytes from `begin` on.
     void copy(std::uint64_t begin, std::uint64_t size, AtomicFile& to) const;
 
 private:

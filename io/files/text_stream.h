@@ -9,8 +9,8 @@
 
 namespace slabhull::io {
 
-/// Text on its way to a file, through a buffer of fixed size. Doubles get the fewest digits that give the
-/// same double back. What was put is in the file only after flush().
+/// Writes text to a file through a buffer of fixed size. Doubles get the fewest digits that read back
+/// exactly. Text is in the file only after flush().
 class TextStream {
 public:
     explicit TextStream(AtomicFile& file) : file_{file}, buffer_{std::make_unique<char[]>(buffer_bytes)} {}
@@ -22,13 +22,13 @@ public:
         used_ = static_cast<std::size_t>(
             std::to_chars(buffer_.get() + used_, buffer_.get() + buffer_bytes, value).ptr - buffer_.get());
     }
-    /// A number and what follows it: a blank or a line's end.
+    /// Writes a number and the blank or line end that follows it.
     template<class T>
     void number(T value, char after) {
         number(value);
         buffer_[used_++] = after;
     }
-    /// Numbers with blanks between them, and `after` behind the last.
+    /// Writes numbers with blanks between them and `after` behind the last.
     template<class T>
     void numbers(const T* values, std::size_t count, char after) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -39,7 +39,7 @@ public:
 
 private:
     static constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
-    static constexpr std::size_t longest_number = 32; ///< with what follows; a double takes 24 at most
+    static constexpr std::size_t longest_number = 32; ///< including what follows; a double takes at most 24
 
     void reserve(std::size_t bytes) {
         if (buffer_bytes - used_ < bytes) {

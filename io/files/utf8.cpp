@@ -13,7 +13,7 @@ bool goes_on(unsigned char c) {
     return (c & 0xC0) == 0x80;
 }
 
-/// Bytes of the character that stands at `at`; 0 where there is none, or a longer form than it needs.
+/// Number of bytes of the character at `at`; 0 if it is invalid or longer than needed.
 std::size_t character_size(std::string_view text, std::size_t at) {
     const auto byte = [&](std::size_t i) {
         return at + i < text.size() ? static_cast<unsigned char>(text[at + i])

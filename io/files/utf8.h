@@ -6,8 +6,8 @@
 
 namespace slabhull::io {
 
-/// A name as UTF-8: as it stands where it is that, else read as Latin-1, as older programs write it. Reports,
-/// which are JSON, hold nothing else.
+/// A name as UTF-8: unchanged if it is valid, else read as Latin-1, which older programs write. JSON reports
+/// must be UTF-8.
 std::string as_utf8(std::string_view text);
 
 } // namespace slabhull::io

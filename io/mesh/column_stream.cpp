@@ -10,15 +10,15 @@ namespace slabhull::io {
 
 namespace {
 
-/// Rows that are worth a thread, or fewer where they are long.
+/// Least number of rows worth a thread, fewer if rows are long.
 std::size_t least_rows(std::size_t longest_row) {
     constexpr std::size_t most_bytes = std::size_t{1} << 20;
     constexpr std::size_t enough = 4096;
     return std::clamp<std::size_t>(most_bytes / longest_row, 1, enough);
 }
 
-/// Makes `count` rows from `first` on at `out`, which has room for as many of the longest. Returns their
-/// bytes.
+/// Makes `count` rows from `first` on at `out`, which has room for that many of the longest. Returns their
+/// size.
 std::size_t make_rows(std::size_t first, std::size_t count, std::size_t longest_row, const TextFill& fill,
                       char* out) {
     constexpr std::size_t pieces = 8;
@@ -30,7 +30,7 @@ std::size_t make_rows(std::size_t first, std::size_t count, std::size_t longest_
             static_cast<std::size_t>(fill(first + begin, first + end, piece) - piece);
     });
     std::size_t used = 0;
-    for (std::size_t piece = 0; piece < pieces; ++piece) { // closes the gaps, where there are any
+    for (std::size_t piece = 0; piece < pieces; ++piece) { // closes gaps between pieces
         const std::size_t place = piece * piece_rows * longest_row;
         if (lengths[piece] > 0 && place != used) {
             std::memmove(out + used, out + place, lengths[piece]);
@@ -40,7 +40,7 @@ std::size_t make_rows(std::size_t first, std::size_t count, std::size_t longest_
     return used;
 }
 
-/// Rows of one length as text is made.
+/// Adapts rows of equal length to the interface for text.
 TextFill as_text(const RowFill& fill, std::size_t row_bytes) {
     return [&fill, row_bytes](std::size_t begin, std::size_t end, char* out) {
         fill(begin, end, out);
@@ -67,7 +67,7 @@ void stream_rows(std::size_t rows, std::size_t row_bytes, const RowFill& fill,
 }
 
 void stream_text(AtomicFile& file, std::size_t rows, std::size_t longest_row, const TextFill& fill) {
-    std::vector<char> apart; // rows that may reach into the next block
+    std::vector<char> apart; // rows that may extend into the next block
     for (std::size_t first = 0; first < rows;) {
         const std::span<char> room = file.room();
         std::size_t count = std::min(rows - first, room.size() / longest_row);

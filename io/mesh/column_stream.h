@@ -20,24 +20,24 @@ using RowFill = std::function<void(std::size_t begin, std::size_t end, char* out
 
 /// Writes rows to the file, large blocks at a time; within a block they are made by several threads.
 void stream_rows(AtomicFile& file, std::size_t rows, std::size_t row_bytes, const RowFill& fill);
-/// The same, the bytes of each `count` rows from `first` on handed to `take` in order.
+/// The same, but passes the bytes of each `count` rows from `first` on to `take`, in order.
 void stream_rows(std::size_t rows, std::size_t row_bytes, const RowFill& fill,
                  const std::function<void(std::size_t first, std::size_t count, const char* bytes)>& take);
 
 /// Writes the rows [begin, end), each of any length up to the longest, to `out` and returns where they end.
 using TextFill = std::function<char*(std::size_t begin, std::size_t end, char* out)>;
 
-/// The same for rows that differ in length, as those of text do.
+/// The same for rows of different lengths, such as text.
 void stream_text(AtomicFile& file, std::size_t rows, std::size_t longest_row, const TextFill& fill);
 
-/// Makes rows in blocks of `block_rows`, of which several threads transform several at a time, and hands what
-/// comes of them to `take` in order.
+/// Makes rows in blocks of `block_rows`, transforms several blocks at a time in threads, and passes the
+/// results to `take` in order.
 void stream_blocks(std::size_t rows, std::size_t block_rows, std::size_t row_bytes, const RowFill& fill,
                    const std::function<std::string(std::string_view bytes)>& transform,
                    const std::function<void(const std::string&)>& take);
 
-/// Calls use(row, values, count) for `count` rows of a column from `row` on at a time, rows [begin, end) in
-/// all.
+/// Calls use(row, values, count) for chunks of `count` rows from `row` on, which together are rows [begin,
+/// end) of a column.
 template<class T, class Use>
 void for_each_chunk(const Column<T>& column, std::size_t begin, std::size_t end, const Use& use) {
     constexpr std::size_t chunk = 1024; // small enough to stay in the cache
@@ -68,7 +68,7 @@ void put(char*& out, T value) {
     out += sizeof value;
 }
 
-/// Fill that stores a column's values as Stored.
+/// A fill that stores a column's values as Stored.
 template<class Stored, class Given>
 RowFill stored_as(const Column<Given>& column) {
     return [column](std::size_t begin, std::size_t end, char* out) {

@@ -10,7 +10,7 @@ namespace slabhull::io {
 namespace {
 
 template<class Values>
-void keep_rows(Values& values, const Array<Index>& rows) { // which ascend
+void keep_rows(Values& values, const Array<Index>& rows) { // `rows` ascend
     for (std::size_t k = 0; k < rows.size(); ++k) {
         values[k] = values[rows[k]];
     }
@@ -50,7 +50,7 @@ void CornersOnly::finish(Soup& soup) const {
     for (std::size_t v = 0; v < between_.size(); ++v) {
         number[v] = between_[v] != 0 ? no_index : 0;
     }
-    for (const SimplexBlock& block : soup.simplices) { // a corner of one may lie on another's side
+    for (const SimplexBlock& block : soup.simplices) { // may be a corner of another simplex
         for (const Index vertex : block.vertices) {
             number[vertex] = 0;
         }

@@ -10,15 +10,14 @@
 
 namespace slabhull::io {
 
-/// What follows "element 7 is a second-order line" where corners are not wanted.
+/// Continues "element 7 is a second-order line" if ReadOptions::linear is not set.
 inline constexpr const char* how_to_take_corners =
     "its corners are taken with initial.linear = true in a case, with --linear by convert";
 
-/// Keeps account of the points that curved simplices have between their corners, for a reader that takes the
-/// corners alone.
+/// Records the points between the corners of curved simplices, for a reader that keeps only corners.
 class CornersOnly {
 public:
-    /// A point that a curved simplex has, but not as a corner.
+    /// Records a point of a curved simplex that is not a corner of it.
     void add_between(Index point, std::size_t points) {
         if (point >= between_.size()) {
             between_.resize(points, 0);
@@ -27,12 +26,12 @@ public:
     }
     void add_cells(std::size_t count) { cells_ += count; }
 
-    /// Leaves out the points that are no simplex's corner, with their data, and remarks on it. Points keep
-    /// the file's numbers as their tags.
+    /// Removes recorded points that are not a corner of any simplex, with their data, and adds a remark.
+    /// Points keep the file's numbers as tags.
     void finish(Soup& soup) const;
 
 private:
-    std::vector<std::uint8_t> between_; ///< by point; shorter than the points
+    std::vector<std::uint8_t> between_; ///< by point; may be shorter than the points
     std::size_t cells_ = 0;
 };
 

@@ -137,8 +137,7 @@ const WriteVariants msh_variants{.encodings = {"binary", "ascii"},
 const WriteVariants vtu_variants{.encodings = {"raw", "zlib", "lz4", "ascii"}};
 const WriteVariants pvtu_variants{.encodings = vtu_variants.encodings, .pieces = true};
 
-/// Built formats first, then those that were left out; each part in the order in which extensions are looked
-/// up.
+/// Built formats first, then those left out; each part in the order in which extensions are looked up.
 struct FormatTable {
     std::vector<Format> all;
     std::size_t built = 0;

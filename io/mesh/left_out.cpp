@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Readers and writers of the formats that SLABHULL_FORMATS leaves out: all of them refuse. So a program that
-// calls one links in every build.
+// Readers and writers of the formats that SLABHULL_FORMATS leaves out: all of them throw, so that programs
+// that call them link in every build.
 #include "io/mesh/left_out.h"
 
 #include "io/mesh/readers.h"
@@ -31,7 +31,7 @@ void write_vtk(AtomicFile&, const MeshColumns&) {
 }
 #endif
 
-#if !SLABHULL_FORMAT_XDMF // which has our HDF5
+#if !SLABHULL_FORMAT_XDMF // its folder has the HDF5 code
 SpaceTimeSoup read_h5(const Path&) {
     refuse_left_out("HDF5", "xdmf");
 }

@@ -19,7 +19,7 @@ template<class Is>
 std::string names_of(const std::vector<DataArray>& arrays, const Is& is) {
     std::string names;
     for (const DataArray& array : arrays) {
-        if (array.name != "padding" && is(array)) { // the VTU writer's own
+        if (array.name != "padding" && is(array)) { // added by the VTU writer
             names += (names.empty() ? "" : ", ") + array.name;
         }
     }
@@ -38,7 +38,7 @@ bool is_wide(const DataArray& array) {
            });
 }
 
-/// "neighbors" is put together again when read.
+/// Whether components are stored as separate arrays; readers rejoin "neighbors".
 bool is_taken_apart(const DataArray& array) {
     const bool reals = std::holds_alternative<Array<double>>(array.values);
     return array.components > 1 && !(reals && (array.components == 3 || array.components == 9)) &&
@@ -89,7 +89,7 @@ std::string single_precision(const Soup& soup) {
     return fits ? "" : "coordinates beyond single precision";
 }
 
-/// Whether the cells use all points and name them first in their order.
+/// Whether the cells use all points, and first use them in the order of their numbers.
 bool points_by_cells(const Soup& soup) {
     Index next = 0;
     for (const Index vertex : soup.simplices[static_cast<std::size_t>(soup.top_dimension())].vertices) {

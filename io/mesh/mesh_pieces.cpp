@@ -14,7 +14,7 @@ namespace {
 
 using Points = std::shared_ptr<const PointSet>;
 
-/// The rows of a column over all points that belong to a piece's points, a run of neighbouring ones at once.
+/// The rows of a column that belong to a piece's points, filled by runs of consecutive points.
 template<class T>
 Column<T> of_points(const Column<T>& all, const Points& points) {
     const auto width = static_cast<std::size_t>(all.components());
@@ -40,7 +40,7 @@ Column<T> of_cells(const Column<T>& all, std::size_t first, std::size_t count) {
             }};
 }
 
-/// Each value is a point: its number in the piece instead of that in the mesh.
+/// Cells with points numbered as in the piece instead of as in the mesh.
 Column<std::int64_t> renumbered(const Column<std::int64_t>& cells, const Points& points) {
     const auto width = static_cast<std::size_t>(cells.components());
     return {cells.rows(), cells.components(),
@@ -109,7 +109,7 @@ std::vector<MeshColumns::Group> groups_of_members(std::vector<MeshColumns::Group
     return groups;
 }
 
-/// A data array of that name would be taken for ours.
+/// A given array with the name of ours would be confused with it.
 void require_no_global_numbers(const MeshColumns& mesh) {
     for (const auto* arrays : {&mesh.point_data, &mesh.cell_data}) {
         for (const DataColumn& data : *arrays) {
@@ -150,7 +150,7 @@ std::size_t MeshPieces::first_cell(std::size_t piece) const {
     return cells / pieces_ * piece + std::min(piece, cells % pieces_);
 }
 
-/// Adds to the points where the last piece takes what is left.
+/// Chooses a piece's lower simplices. In the last piece also adds the points of those that are left.
 std::shared_ptr<const PointSet> MeshPieces::choose_lower(std::size_t part, PointSet& points) {
     const Column<std::int64_t>& cells = mesh_.lower[part].cells;
     auto chosen = std::make_shared<PointSet>(cells.rows());

@@ -12,25 +12,25 @@
 
 namespace slabhull::io {
 
-/// The arrays that tell the whole mesh's numbers in a piece: VTK's own names for them.
+/// Arrays of a piece with the numbers in the whole mesh, under VTK's own names.
 inline constexpr const char* global_points = "GlobalPointIds";
 inline constexpr const char* global_cells = "GlobalCellIds";
 
-/// What tells VTK that one of the arrays is that: an attribute with a blank in front, or nothing.
+/// The XML attribute, after a blank, that marks such an array for VTK; empty if none of the arrays is one.
 std::string global_ids_attribute(const std::vector<DataColumn>& data);
 
 /// A range of a mesh's cells, as a mesh of its own.
 struct MeshPiece {
     MeshColumns mesh; ///< points and cells numbered within the piece, data of both, field data, groups
     std::size_t first_cell = 0;
-    std::shared_ptr<const PointSet> points;             ///< which of the whole mesh's
-    std::vector<std::shared_ptr<const PointSet>> lower; ///< which of each Part in mesh.lower
+    std::shared_ptr<const PointSet> points;             ///< its points in the whole mesh
+    std::vector<std::shared_ptr<const PointSet>> lower; ///< its lower simplices in each Part
 };
 
 /// The pieces of a mesh: ranges of cells of nearly equal length, in order, and the points that each uses, in
-/// their order in the mesh. Simplices of a lower dimension belong to the first piece that has their points;
-/// those that none has, and points that no cell uses, belong to the last. Columns of a piece ask those
-/// of the mesh, which must outlive them. Memory: less than three bits per point of the mesh, whatever the
+/// their order in the mesh. A simplex of a lower dimension belongs to the first piece that has its points, or
+/// to the last if none has. Points that no cell uses belong to the last. Columns of a piece refer to those of
+/// the mesh, which must outlive them. Memory: less than three bits per point of the mesh, for any number of
 /// pieces.
 class MeshPieces {
 public:
@@ -47,11 +47,11 @@ private:
     const MeshColumns& mesh_;
     std::size_t pieces_;
     std::size_t next_ = 0;
-    PointSet used_;               ///< by the pieces before
-    std::vector<PointSet> taken_; ///< of each Part of lower simplices
+    PointSet used_;               ///< points used by earlier pieces
+    std::vector<PointSet> taken_; ///< lower simplices taken by earlier pieces, by Part
 };
 
-/// "room_3.vtu" for the piece 3 of room.pvtu.
+/// "room_3.vtu" for piece 3 of room.pvtu.
 std::filesystem::path piece_path(const std::filesystem::path& whole, std::size_t piece,
                                  const char* extension);
 

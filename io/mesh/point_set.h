@@ -17,31 +17,31 @@ public:
         return (words_[point / word_bits] >> point % word_bits & 1) != 0;
     }
     void insert(std::size_t point) { words_[point / word_bits] |= std::uint64_t{1} << point % word_bits; }
-    /// Also all points that the other does not have.
+    /// Inserts all points that the other set does not contain.
     void insert_complement(const PointSet& other);
     void insert(const PointSet& other);
-    /// To be called after the last insertion and before what follows.
+    /// Call after the last insertion and before the functions below.
     void count();
 
     std::size_t size() const { return size_; }
-    /// The number of a member: how many are smaller. The end is as good as a member.
+    /// The number of a member: how many are smaller. The end of all points is also allowed.
     std::size_t rank(std::size_t point) const;
-    /// The member of that number, which must be below size().
+    /// The member with a number, which must be below size().
     std::size_t member(std::size_t rank) const;
-    /// The next member after one of them.
+    /// The next member after a given one.
     std::size_t next(std::size_t member) const;
 
 private:
     static constexpr std::size_t word_bits = 64;
     static constexpr std::size_t block_words = 8;
-    /// Whole blocks, so that none needs a check of its end.
+    /// Rounded up to whole blocks, so that block ends need no check.
     static std::size_t words_for(std::size_t points) {
         return (points / (word_bits * block_words) + 1) * block_words;
     }
 
     std::size_t points_;
     std::vector<std::uint64_t> words_;
-    std::vector<std::uint64_t> before_; ///< members in front of each block
+    std::vector<std::uint64_t> before_; ///< number of members before each block
     std::size_t size_ = 0;
 };
 

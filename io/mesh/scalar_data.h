@@ -9,12 +9,12 @@
 
 namespace slabhull::io {
 
-/// A number for each point of a mesh to be written, asked for row by row in ascending order.
+/// A number for each point of a mesh to be written, accessed row by row in ascending order.
 template<class T>
 class PointScalars {
 public:
     PointScalars() = default;
-    /// The point data of that name and type with one component, where there are such.
+    /// The point data with that name, type T and one component, if there are any.
     PointScalars(const MeshColumns& mesh, const std::string& name) {
         for (const DataColumn& data : mesh.point_data) {
             const auto* column = std::get_if<Column<T>>(&data.values);
@@ -42,7 +42,7 @@ private:
     }
 
     Column<T> column_;
-    std::vector<T> values_; ///< of rows [begin_, end_)
+    std::vector<T> values_; ///< values of rows [begin_, end_)
     std::size_t begin_ = 0;
     std::size_t end_ = 0;
 };

@@ -79,7 +79,7 @@ MeshColumns columns_of(const Soup& soup) {
     }
     mesh.point_data = columns_of(soup.point_data);
     mesh.cell_data = columns_of(soup.cell_data);
-    // "padding" is the VTU writer's own, of no meaning.
+    // "padding" is added by the VTU writer and has no meaning.
     std::copy_if(soup.field_data.begin(), soup.field_data.end(), std::back_inserter(mesh.field_data),
                  [](const DataArray& array) { return array.name != "padding"; });
     return mesh;

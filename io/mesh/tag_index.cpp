@@ -19,7 +19,7 @@ TagIndex::TagIndex(std::span<const std::int64_t> tags) : count_{tags.size()} {
     const auto [least, most] = std::minmax_element(tags.begin(), tags.end());
     smallest_ = static_cast<std::uint64_t>(*least);
     const std::uint64_t range = static_cast<std::uint64_t>(*most) - smallest_;
-    if (range / 4 <= count_) { // the table takes no more than the file
+    if (range / 4 <= count_) { // the table is not larger than the file
         fill_table(tags, range + 1);
     } else {
         sort(tags);

@@ -11,8 +11,8 @@
 
 namespace slabhull::io {
 
-/// Where a file's own number stands in the order of the file.
-/// Numbers without gaps cost nothing, few gaps a table, others a search.
+/// The position of each of a file's own numbers in the order of the file.
+/// Numbers without gaps need no memory, few gaps a table, others a search.
 class TagIndex {
 public:
     TagIndex() = default;
@@ -26,7 +26,7 @@ public:
         }
         return table_.empty() ? search(tag) : offset < table_.size() ? table_[offset] : no_index;
     }
-    /// A tag that stands twice.
+    /// A tag that occurs twice.
     std::optional<std::int64_t> repeated() const { return repeated_; }
 
 private:

@@ -5,7 +5,7 @@
 
 namespace slabhull::io {
 
-/// What a simplex has: corners, one more than its dimension, come first among its nodes.
+/// A Gmsh element type that is a simplex. Its corners, one more than its dimension, are its first nodes.
 struct GmshSimplex {
     int dimension = -1; ///< -1: no simplex
     int nodes = 0;
@@ -51,7 +51,7 @@ constexpr int gmsh_simplex_type(int dimension) {
     return dimension == 0 ? 15 : dimension == 1 ? 1 : dimension == 2 ? 2 : 4;
 }
 
-/// What the user calls an element type that we refuse.
+/// The user's name of an element type that we refuse.
 inline std::string gmsh_type_name(int type) {
     switch (type) {
     case 3:

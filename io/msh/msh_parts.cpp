@@ -52,7 +52,7 @@ void require_rows(const char* section, const std::vector<DataColumn>& columns) {
 
 } // namespace
 
-/// Before anything is written, as what cannot be must not take an hour to say.
+/// Checked before anything is written, so that the error does not come after an hour.
 void require_msh_rows(const MeshColumns& mesh) {
     require_rows("NodeData", mesh.point_data);
     require_rows("ElementData", mesh.cell_data);

@@ -21,16 +21,15 @@ struct Box {
 
 Box box_of(const Column<double>& points);
 
-/// The discrete entities of one dimension: one for each number that groups have, in the order in which they
-/// are first met.
+/// The discrete entities of one dimension: one for each group number, in the order of first occurrence.
 class MshEntities {
 public:
     explicit MshEntities(const std::vector<MeshColumns::Group>& groups);
 
     std::size_t size() const { return groups_.size(); }
-    /// The number of the physical group of entity `i`, from 0.
+    /// The physical group's number of entity `i`, counted from 0.
     PatchNumber group(std::size_t i) const { return groups_[i]; }
-    /// The entity of groups of that number, from 1.
+    /// The entity, counted from 1, of groups with a number.
     std::size_t of(PatchNumber group) const { return numbers_.at(group); }
 
 private:
@@ -38,10 +37,9 @@ private:
     std::unordered_map<PatchNumber, std::size_t> numbers_;
 };
 
-/// The tags of the rows of a list: numbers in order or, of a part of the list, those that its members have in
-/// the whole.
+/// The tags of the rows of a list: consecutive or, for a part of a list, those in the whole list.
 struct MshTags {
-    std::size_t before = 0;            ///< used before the whole list's
+    std::size_t before = 0;            ///< tags used before those of the list
     const PointSet* members = nullptr; ///< nullptr: all
 
     std::size_t operator()(std::size_t row) const {
@@ -58,23 +56,23 @@ struct MshPart {
     MshTags tags;
 };
 
-/// The cells first, so that their tags are their numbers from 1; then those of lower dimensions.
+/// The cells first, so that their tags are their numbers from 1; then lower simplices.
 std::vector<MshPart> msh_parts(const MeshColumns& mesh);
 
-/// What is in one MSH file: a mesh, or a piece of one.
+/// The content of one MSH file: a mesh, or a piece of one.
 struct MshContent {
     const MeshColumns& mesh;           ///< the points and the data
-    std::vector<MshPart> parts;        ///< the simplices: those of the mesh and lower ones, none without rows
+    std::vector<MshPart> parts;        ///< the cells and lower simplices; none is empty
     MshTags nodes;                     ///< of the points
     const std::vector<MshPart>& model; ///< the simplices of the whole mesh
     Box box;                           ///< of the whole mesh
-    std::size_t pieces = 0;            ///< that the mesh is in; 0: not cut
-    std::size_t piece = 0;             ///< which one, from 0
+    std::size_t pieces = 0;            ///< number of pieces; 0: not cut
+    std::size_t piece = 0;             ///< number of this piece, from 0
 };
 
 void write_msh(AtomicFile& file, const MshContent& content, const MshOptions& options);
 
-/// Throws FormatLimit where data have more rows than MSH can count.
+/// Throws FormatLimit if data have more rows than MSH can count.
 void require_msh_rows(const MeshColumns& mesh);
 
 } // namespace slabhull::io

@@ -26,7 +26,7 @@ std::vector<MshPart> parts_of(const MeshPiece& piece, const std::vector<MshPart>
     return parts;
 }
 
-/// Element and node tags tell what these would.
+/// These arrays would repeat the element and node tags.
 void drop_global_numbers(std::vector<DataColumn>& data) {
     std::erase_if(
         data, [](const DataColumn& each) { return each.name == global_points || each.name == global_cells; });

@@ -74,13 +74,13 @@ private:
         } else if (name == "$NodeData" || name == "$ElementData") {
             read_data(name);
         } else {
-            skip_section(name); // $GhostElements, too, which repeats elements of other partitions
+            skip_section(name); // also $GhostElements, which repeats elements of other partitions
         }
         const std::string closing = "$End" + name.substr(1);
         require(in_.word() == closing, closing + " was expected");
     }
 
-    /// Goes to the closing line.
+    /// Skips to the closing line.
     void skip_section(const std::string& name) {
         if (!in_.seek_text("$End" + name.substr(1))) {
             in_.fail("section " + name + " does not end");
@@ -138,7 +138,7 @@ private:
         }
     }
 
-    /// A count of things that each take `binary_bytes` or, as text, `words` words.
+    /// A checked count of items that each take `binary_bytes` or, as text, `words` words.
     std::size_t counted(std::uint64_t count, std::size_t binary_bytes, std::size_t words,
                         const char* what) const {
         return in_.plausible(count, in_.binary() ? binary_bytes : words * least_text - 1, what);
@@ -151,7 +151,7 @@ private:
         read_entity_lists(false);
     }
 
-    /// The model's entities, cut by the partitions, and the interfaces that this makes.
+    /// Reads the parts of the model's entities in partitions, and the interfaces between these.
     void read_partitioned_entities() {
         require(version_ == Version::v4, "$PartitionedEntities was not expected in MSH 2");
         size_value("a count of partitions");
@@ -211,7 +211,7 @@ private:
 
     // --- nodes ---
 
-    /// With parameters on the model's entities, which are passed over, where `parametric` (MSH 2 only).
+    /// `parametric` (MSH 2 only): nodes have parameters on the model's entities, which are skipped.
     void read_nodes(bool parametric) {
         require(!nodes_read_, "$Nodes appears twice");
         require(!parametric || version_ == Version::v2, "$ParametricNodes was not expected in MSH 4");
@@ -277,7 +277,7 @@ private:
         return claimed;
     }
 
-    /// One parameter on a curve, two on a surface, none elsewhere.
+    /// Skips parameters: one on a curve, two on a surface, none elsewhere.
     void pass_parameters() {
         const auto dimension = in_.number<std::int32_t>("an entity's dimension");
         require(dimension >= 0 && dimension <= 3, fmt::format("{} is no dimension", dimension));
@@ -349,7 +349,7 @@ private:
         if (claimed == 0) {
             return;
         }
-        if (is_refused(type)) { // the tag for the message is all we want
+        if (is_refused(type)) { // only the tag is needed, for the message
             simplex(type, static_cast<std::int64_t>(size_value("an element's number")));
         }
         const GmshSimplex kind = simplex(type, 0);
@@ -363,7 +363,7 @@ private:
         const auto parent = parent_of_[dimension].find(entity);
         const bool is_part = parent != parent_of_[dimension].end();
         if (is_part && parent->second.dimension != entity_dimension) {
-            SimplexBlock interface; // between partitions, no part of the model
+            SimplexBlock interface; // between partitions, not part of the model
             read_rows(interface, kind, count);
             return;
         }
@@ -380,8 +380,8 @@ private:
         return simplex.dimension < 0 || (simplex.is_curved() && !options_.linear);
     }
 
-    /// Addresses for all elements that may follow, so that the arrays never move: memory is taken only by
-    /// those that come.
+    /// Reserves addresses for all elements that may follow, so that arrays never move; memory is taken only
+    /// as they are filled.
     void reserve_elements(SimplexBlock& block, std::size_t dimension) const {
         if (!block.tags.empty()) {
             return;
@@ -396,7 +396,7 @@ private:
         block.entity.reserve(most);
     }
 
-    /// Rows of an element's number and its nodes'.
+    /// Reads rows of an element's number and its nodes' numbers.
     void read_rows(SimplexBlock& block, const GmshSimplex& kind, std::size_t count) {
         const auto corners = static_cast<std::size_t>(kind.dimension) + 1;
         const auto nodes = static_cast<std::size_t>(kind.nodes);
@@ -417,10 +417,10 @@ private:
         element_count_ += count;
     }
 
-    static constexpr std::size_t rows_at_once = 512;              // of straight simplices
+    static constexpr std::size_t rows_at_once = 512;              // rows of straight simplices
     using RowValues = std::array<std::int64_t, rows_at_once * 5>; // up to 1 + 4 in a row
 
-    /// Where elements stand in the file, and where they go.
+    /// A block of elements in the file, and its destination.
     struct Rows {
         std::size_t byte;
         std::size_t corners;
@@ -440,7 +440,7 @@ private:
         }
     }
 
-    /// Rows [begin, end), from the file past the cursor.
+    /// Reads rows [begin, end) directly from the file, without moving the cursor.
     void copy_rows(const Rows& all, std::size_t begin, std::size_t end) const {
         const std::size_t row_bytes = (all.corners + 1) * sizeof(std::int64_t);
         RowValues values;
@@ -457,7 +457,7 @@ private:
         }
     }
 
-    /// Rows from `first` on, which stand at that byte.
+    /// Stores rows from `first` on, which were read from a byte of the file.
     void take_rows(const Rows& all, std::size_t first, std::size_t count, const RowValues& values,
                    std::size_t byte) const {
         const std::int64_t* value = values.data();
@@ -536,7 +536,7 @@ private:
         return claimed;
     }
 
-    /// What MSH 2 says of an element after its number and type. The first tags are physical group and entity.
+    /// Reads an element of MSH 2 after its number and type. The first tags are physical group and entity.
     void read_legacy_element(std::int64_t tag, const GmshSimplex& kind, std::uint32_t tag_count) {
         const auto dimension = static_cast<std::size_t>(kind.dimension);
         std::array<std::int32_t, 2> tags{};
@@ -607,7 +607,7 @@ private:
         return head;
     }
 
-    /// Data of all nodes, or of all elements of the top dimension, become arrays; other data are passed over.
+    /// Data of all nodes, or of all elements of the top dimension, become arrays; other data are ignored.
     void read_data(const std::string& section) {
         const bool on_nodes = section == "$NodeData";
         require(on_nodes ? nodes_read_ : elements_read_, section + " was expected after what it describes");
@@ -630,16 +630,16 @@ private:
         }
     }
 
-    /// Whether every one of the `wanted` got its row.
+    /// Reads rows of data; returns whether each of the `wanted` got its row.
     bool read_data_rows(std::size_t rows, std::size_t components, const TagIndex& index, std::size_t wanted,
                         Array<double>& values) {
         std::size_t in_order = 0;
-        std::vector<bool> given; // only where rows come in another order: it is as long as the mesh
+        std::vector<bool> given; // only used if rows are not in order, as it is as long as the mesh
         std::vector<double> row(components);
         for (std::size_t i = 0; i < rows; ++i) {
             const Index place = index.find(in_.number<std::int32_t>("a number of a node or element"));
             in_.numbers(row.data(), components, "a value");
-            if (place == no_index) { // data may be on elements of a lower dimension, too
+            if (place == no_index) { // data may also be on elements of a lower dimension
                 continue;
             }
             std::copy(row.begin(), row.end(),
@@ -670,7 +670,7 @@ private:
         }
     }
 
-    /// Elements of an entity in several groups are in the first of them; that the others stay empty is said.
+    /// Elements of an entity in several groups are in the first one only; remarks on groups that stay empty.
     void remark_on_groups() {
         constexpr std::array<const char*, 4> kinds{"points", "lines", "triangles", "tetrahedra"};
         std::map<std::pair<std::size_t, std::vector<std::int32_t>>, std::size_t> counts;
@@ -715,10 +715,10 @@ private:
     std::uint64_t elements_claimed_ = 0;
     std::uint64_t element_count_ = 0;
     TagIndex nodes_;
-    std::unique_ptr<TagIndex> element_of_; ///< of the top dimension, made when data ask for it
+    std::unique_ptr<TagIndex> element_of_; ///< elements of the top dimension; made when data need it
     std::array<std::map<PatchNumber, std::string>, 4> names_;
     std::array<std::map<std::int32_t, PatchNumber>, 4> physical_of_;             ///< an entity's group
-    std::array<std::map<std::int32_t, std::vector<std::int32_t>>, 4> groups_of_; ///< of entities in several
+    std::array<std::map<std::int32_t, std::vector<std::int32_t>>, 4> groups_of_; ///< its groups, if several
     std::array<std::map<std::int32_t, Parent>, 4> parent_of_; ///< the model's entity of a part
 };
 

@@ -19,7 +19,7 @@ namespace slabhull::io {
 
 namespace {
 
-/// The name of a group as MSH has it, in double quotes, for which there is no escape.
+/// Checks a group's name, which MSH puts in double quotes without an escape for them.
 const std::string& quotable(const std::string& name) {
     if (name.find_first_of("\"\n\r") != std::string::npos) {
         throw UsageError{fmt::format("MSH has no place for a double quote or a line end in the name of a "
@@ -29,7 +29,7 @@ const std::string& quotable(const std::string& name) {
     return name;
 }
 
-/// The values of a row in binary, as they are in memory.
+/// A row in binary: the values as in memory.
 struct BinaryRow {
     static constexpr bool text = false;
     static constexpr std::string_view section_end = "\n"; ///< behind the values of a section
@@ -45,12 +45,12 @@ struct BinaryRow {
     void end() {}
 };
 
-/// A row as a line of text; doubles have the fewest digits that give them back.
+/// A row as a line of text; doubles have the fewest digits that read back exactly.
 struct TextRow {
     static constexpr bool text = true;
     static constexpr std::string_view section_end = "";
     template<class T>
-    static constexpr std::size_t longest = 25; ///< a double takes 24, an integer less; and a blank
+    static constexpr std::size_t longest = 25; ///< a double takes 24, an integer less; then a blank
 
     char* out;
 
@@ -62,8 +62,8 @@ struct TextRow {
     void end() { out[-1] = '\n'; }
 };
 
-/// One writer for both versions and both ways to store values. Tag is the type of the numbers of nodes and
-/// elements: 64 bits in version 4.1, 32 in version 2.2.
+/// The writer for both versions, in text or binary. Tag is the type of node and element numbers: 64 bits in
+/// version 4.1, 32 in version 2.2.
 template<class Row, class Tag>
 class MshWriter {
 public:
@@ -113,7 +113,7 @@ private:
         file_.write(fmt::format("{}$End{}\n", Row::section_end, name));
     }
 
-    /// Many rows: fill(begin, end, row) makes some of them and ends each.
+    /// Writes many rows: fill(begin, end, row) makes some of them and ends each.
     template<class Fill>
     void rows(std::size_t count, std::size_t longest, const Fill& fill) {
         stream_text(file_, count, longest, [&](std::size_t begin, std::size_t end, char* out) {
@@ -123,7 +123,7 @@ private:
         });
     }
 
-    /// One row of a few values.
+    /// Writes one row of a few values.
     template<class... T>
     void row(T... values) {
         rows(1, (0 + ... + Row::template longest<T>), [&](std::size_t, std::size_t, Row& row) {
@@ -135,7 +135,7 @@ private:
     void write_format() {
         file_.write(fmt::format("$MeshFormat\n{} {} 8\n", is_4 ? "4.1" : "2.2", Row::text ? 0 : 1));
         if constexpr (!Row::text) {
-            row(std::int32_t{1}); // tells the byte order
+            row(std::int32_t{1}); // marks the byte order
             file_.write("\n");
         }
         file_.write("$EndMeshFormat\n");
@@ -170,25 +170,25 @@ private:
         }
     }
 
-    /// What each is in this piece.
+    /// Writes the entities' parts in this piece.
     void write_piece_entities() {
         row(static_cast<Tag>(content_.pieces));
-        row(Tag{0}); // no ghosts
+        row(Tag{0}); // number of ghost entities
         write_entities([this](const MshPart& part, std::size_t i, Row& row) {
             row.value(entity_tag(part, i + 1));
-            row.value(std::int32_t{part.dimension}); // the parent's
+            row.value(std::int32_t{part.dimension}); // dimension of the parent
             row.value(as_int(i + 1));
             row.value(Tag{1});
             row.value(as_int(content_.piece + 1));
         });
     }
 
-    /// The pieces of an entity follow the entities of the model, by piece.
+    /// Tags of the entities' parts come after those of the model's entities, piece by piece.
     std::int32_t entity_tag(const MshPart& part, std::size_t entity) const {
         return as_int(entity + (content_.pieces > 0 ? part.entities->size() * (content_.piece + 1) : 0));
     }
 
-    /// How many there are and, by ascending dimension, each; name(part, i, row) begins its row.
+    /// Writes the numbers of entities, then each, by ascending dimension; name(part, i, row) begins its row.
     template<class Name>
     void write_entities(const Name& name) {
         std::array<Tag, 4> counts{};
@@ -220,7 +220,7 @@ private:
             row.value(group);
         }
         if (part.dimension > 0) {
-            row.value(Tag{0}); // no bounding entities
+            row.value(Tag{0}); // number of bounding entities
         }
         row.end();
     }
@@ -242,7 +242,7 @@ private:
         write_nodes(true, true);
     }
 
-    /// Rows of the nodes' tags, places, or both.
+    /// Writes rows of the nodes' tags, places, or both.
     void write_nodes(bool tags, bool places) {
         const std::size_t longest =
             (tags ? Row::template longest<Tag> : 0) + (places ? 3 * Row::template longest<double> : 0);
@@ -288,7 +288,8 @@ private:
         });
     }
 
-    /// Each element has its type and two numbers, group and entity; in binary the type heads a block.
+    /// Each element has its type and two tags, group and entity; in binary, the type is in the head of a
+    /// block.
     void write_element_list() {
         file_.write(fmt::format("{}\n", elements_));
         for_each_block([this](const MshPart& part, const Group& group) {
@@ -314,7 +315,7 @@ private:
         }
     }
 
-    /// Rows of an element's tag, what is the same for all, and its nodes' tags.
+    /// Writes rows of an element's tag, the values `same` for all, and its nodes' tags.
     template<class Same>
     void write_block(const MshPart& part, const Group& group, const Same& same) {
         const std::size_t corners = static_cast<std::size_t>(part.dimension) + 1;
@@ -335,7 +336,7 @@ private:
 
     // --- data
 
-    /// Gmsh knows reals of 3 or 9 components; all others go apart.
+    /// Gmsh reads reals of 3 or 9 components; all others are written component by component.
     void write_data(const char* name, const DataColumn& data, const MshTags& tags) {
         const int components = components_of(data);
         if (data.type == Scalar::float64 && (components == 3 || components == 9)) {
@@ -348,7 +349,7 @@ private:
         }
     }
 
-    /// Those from `first` to before `last`, under one title.
+    /// Writes the components [first, last) under one title.
     void write_components(const char* name, const std::string& title, const DataColumn& data, int first,
                           int last, const MshTags& tags) {
         section(name, [&] {

@@ -14,12 +14,12 @@ namespace slabhull::io {
 
 namespace {
 
-/// JSON as far as one object of numbers, texts and flat arrays goes; other values are passed over.
+/// Reads JSON: one object of numbers, texts and flat arrays; other values are skipped.
 class JsonCursor : public FileCursor {
 public:
     using FileCursor::FileCursor;
 
-    /// Whether the next character is `wanted`, which is passed then.
+    /// Whether the next character is `wanted`, which is then skipped.
     bool accept(char wanted) {
         skip_blanks();
         const bool found = remaining() > 0 && rest().front() == wanted;
@@ -32,7 +32,7 @@ public:
         }
     }
 
-    /// A text in double quotes, as it stands.
+    /// A text in double quotes, without resolving escapes.
     std::string text(const char* what) {
         expect('"', what);
         const std::string_view all = rest();
@@ -63,7 +63,7 @@ public:
         return result;
     }
 
-    /// An array of numbers. Memory grows with what is there.
+    /// An array of numbers. Memory grows with the numbers in the file.
     template<class T>
     Array<T> values(const char* what) {
         expect('[', what);
@@ -78,7 +78,7 @@ public:
         return result;
     }
 
-    /// Passes a value of any kind, however deep.
+    /// Skips a value of any kind and depth.
     void pass() {
         std::size_t depth = 0;
         do {
@@ -158,7 +158,7 @@ private:
         }
     }
 
-    /// The keys come in any order, so that the numbers are told apart at the end.
+    /// Keys come in any order, so numbers are divided into points only at the end.
     void take_vertices() {
         if (coordinates_.size() % dimension_ != 0) {
             in_.fail_at(vertices_at_, fmt::format("{} coordinates are not {} for each vertex",

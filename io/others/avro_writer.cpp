@@ -38,7 +38,7 @@ void write_elements(TextStream& out, const MeshColumns& mesh) {
 
 void write_avro(AtomicFile& file, const MeshColumns& mesh) {
     PointScalars<double> time;
-    if (mesh.dimension == 3) { // else the time is the third coordinate already
+    if (mesh.dimension == 3) { // else the third coordinate is the time
         time = {mesh, "t"};
     }
     TextStream out{file};

@@ -20,10 +20,10 @@ namespace slabhull::io {
 
 namespace {
 
-/// How a section's rows look; nothing of it is kept.
+/// The layout of a section that is skipped.
 struct PassedSection {
     std::string_view name;
-    std::size_t numbers; ///< in a row; 0: as many as there are dimensions
+    std::size_t numbers; ///< numbers in a row; 0: one per dimension
 };
 
 constexpr std::array passed_sections{
@@ -80,7 +80,7 @@ private:
         in_.require(dimension_ >= 2 && dimension_ <= 4, "dimension 2, 3 or 4 was expected");
     }
 
-    /// False at the end.
+    /// Reads a section; false at the end.
     bool read_section() {
         const std::string name = keyword();
         constexpr std::size_t shown = 40;
@@ -114,7 +114,7 @@ private:
                    : std::optional<std::size_t>{static_cast<std::size_t>(found - names.begin()) + 1};
     }
 
-    /// The count that heads a section of rows of so many numbers.
+    /// The count at the head of a section, checked for rows of so many numbers.
     std::size_t count_of(const char* what, std::size_t numbers) {
         skip_comments(in_);
         const auto claimed = in_.parsed<std::uint64_t>("a count");
@@ -167,7 +167,7 @@ private:
         return x;
     }
 
-    /// Those of second order have nodes between their corners, which come first.
+    /// Corners come first; simplices of second order then have nodes between them.
     void read_simplices(std::size_t dimension, const std::string& name, std::size_t nodes) {
         in_.require(seen_.contains("Vertices"), "Vertices were expected before " + name);
         SimplexBlock& block = soup_.simplices[dimension];

@@ -35,7 +35,7 @@ public:
         write_vertices();
         write_cells(mesh_.dimension, mesh_.cells, mesh_.groups);
         for (const MeshColumns::Part& part : mesh_.lower) {
-            if (part.dimension > 0) { // Medit's corners are no cells
+            if (part.dimension > 0) { // Medit's corners are not cells
                 write_cells(part.dimension, part.cells, part.groups);
             }
         }
@@ -74,7 +74,7 @@ private:
 
     const MeshColumns& mesh_;
     TextStream out_;
-    PointScalars<double> time_; ///< given in four dimensions only
+    PointScalars<double> time_; ///< only used in four dimensions
     PointScalars<std::int64_t> references_;
 };
 

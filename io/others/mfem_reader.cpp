@@ -93,7 +93,7 @@ private:
         in_.require(in_.at_end(), "the end of the file was expected");
     }
 
-    /// The vertices come last, so that only now their numbers can be judged.
+    /// Vertices come last in the file, so indices can be checked only after them.
     void check_vertices(const char* what, int dimension) const {
         const auto place = static_cast<std::size_t>(dimension);
         const Array<Index>& vertices = soup_.simplices[place].vertices;
@@ -108,7 +108,7 @@ private:
     FileCursor in_;
     Soup soup_;
     int dimension_ = 0;
-    std::array<std::size_t, 4> starts_{}; ///< of the lists of simplices, by dimension
+    std::array<std::size_t, 4> starts_{}; ///< starts of the lists of simplices, by dimension
 };
 
 } // namespace

@@ -18,7 +18,7 @@ namespace slabhull::io {
 
 namespace {
 
-/// The facet's vertices so ordered that it is oriented as its cell induces it.
+/// The facet with the orientation that its cell induces.
 template<int D>
 Facet<D> oriented(Facet<D> facet, const Simplex<D>& cell) {
     const auto apex = std::find_if(cell.begin(), cell.end(), [&](Index vertex) {
@@ -31,7 +31,7 @@ Facet<D> oriented(Facet<D> facet, const Simplex<D>& cell) {
     return facet;
 }
 
-/// Adjacency is defined only for such cells.
+/// Adjacency is defined only for cells with distinct vertices.
 template<int D>
 void require_distinct(Simplex<D> cell, std::size_t row) {
     std::sort(cell.begin(), cell.end());
@@ -101,7 +101,7 @@ void write_elements(TextStream& out, const char* section, int dimension, const C
     }
 }
 
-/// That which the mesh tells, in simplices of one dimension less, or else all facets of one cell only.
+/// Writes the mesh's simplices of one dimension less, if any; else all facets of one cell only.
 void write_boundary(TextStream& out, const MeshColumns& mesh) {
     const auto told = std::find_if(mesh.lower.begin(), mesh.lower.end(), [&](const MeshColumns::Part& part) {
         return part.dimension == mesh.dimension - 1;

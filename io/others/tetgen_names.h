@@ -3,10 +3,10 @@
 
 namespace slabhull::io {
 
-/// Starts a comment of ours that tells the attributes: words NAME:real:COMPONENTS or NAME:integer:COMPONENTS.
+/// Starts our comment that lists the attributes: words NAME:real:COMPONENTS or NAME:integer:COMPONENTS.
 inline constexpr const char* attribute_mark = "# attributes:";
 
-/// The attribute of tetrahedra that is their group's number.
+/// The attribute of tetrahedra with their group's number.
 inline constexpr const char* group_attribute = "slabhull:group";
 
 } // namespace slabhull::io

@@ -18,11 +18,11 @@ namespace slabhull::io {
 
 namespace {
 
-/// A file of rows of numbers. Comments are blanked out, but for ours about the attributes.
+/// A file of rows of numbers. Comments are blanked out, except ours with the attributes.
 struct TetgenFile {
     Array<char> bytes;
     FileCursor in;
-    std::string attributes; ///< what the comment says
+    std::string attributes; ///< content of our comment
 
     explicit TetgenFile(const std::filesystem::path& path)
         : bytes{read_bytes(path)}, in{{bytes.data(), bytes.size()}, path.string()} {
@@ -36,7 +36,7 @@ struct TetgenFile {
         }
     }
 
-    /// The counts in the next line that has any; those left out are as given.
+    /// The counts in the next line that is not empty; missing ones keep the given values.
     template<std::size_t n>
     std::array<std::uint64_t, n> counts(std::array<std::uint64_t, n> given) {
         in.skip_blanks();
@@ -56,12 +56,12 @@ struct TetgenFile {
         return given;
     }
 
-    /// A count of rows of that many words each.
+    /// A checked count of rows of so many words each.
     std::size_t rows(std::uint64_t count, std::size_t words, const char* what) const {
         return in.plausible(count, 2 * words - 1, what);
     }
 
-    /// The number that starts a row, from `first`.
+    /// Reads and checks the number that starts a row; numbers start from `first`.
     void number(std::size_t row, std::int64_t first, const char* what) {
         const auto given = in.parsed<std::int64_t>(what);
         const std::int64_t wanted = static_cast<std::int64_t>(row) + first;
@@ -99,7 +99,7 @@ struct TetgenFile {
     }
 };
 
-/// Attributes by columns: those of our comment, if it tells as many as there are, or one for each.
+/// Attributes as arrays: those of our comment, if it lists as many columns as there are, else one per column.
 class Attributes {
 public:
     Attributes(const std::string& told, std::size_t count, std::size_t rows) {
@@ -261,7 +261,7 @@ private:
         }
     }
 
-    /// The first point's number tells where all numbers start.
+    /// The first point's number is where all numbers start.
     void begin_point(TetgenFile& file, std::size_t row) {
         if (row > 0) {
             file.number(row, first_, "point");
@@ -318,7 +318,7 @@ private:
         take_groups(block);
     }
 
-    /// The groups of cells, where write_tetgen() put them.
+    /// Takes the groups of cells from the attribute where write_tetgen() puts them.
     void take_groups(SimplexBlock& block) {
         const auto found =
             std::find_if(soup_.cell_data.begin(), soup_.cell_data.end(), [](const DataArray& array) {
@@ -334,7 +334,7 @@ private:
         soup_.cell_data.erase(found);
     }
 
-    /// Groups hold the positive numbers only.
+    /// Only positive numbers are groups.
     static PatchNumber group_of(std::int64_t number) {
         return number > 0 && std::in_range<PatchNumber>(number) ? static_cast<PatchNumber>(number) : 0;
     }
@@ -348,7 +348,7 @@ private:
         add_tag(block, row);
     }
 
-    /// The nodes of a curved simplex that follow its corners.
+    /// Skips the nodes of a curved simplex that follow its corners.
     void pass_between(TetgenFile& file, std::size_t count, std::size_t row, const char* what) {
         for (std::size_t k = 0; k < count; ++k) {
             corners_only_.add_between(vertex(file, row, what), soup_.points.size());
@@ -377,7 +377,7 @@ private:
     }
 
     /// With -nn TetGen adds the cells on both sides, with -o2 three nodes between the corners. The header
-    /// tells nothing of either, the number of words in a row does. The cells are passed over.
+    /// shows neither, but the number of words in a row does. The cells are skipped.
     void read_faces(TetgenFile& file) {
         const auto [claimed, markers] = file.counts<2>({0, 0});
         const std::size_t marks = markers > 0 ? 1 : 0;
@@ -410,7 +410,7 @@ private:
         soup_.simplices[2].physical.push_back(group_of(marker));
     }
 
-    /// Data can be on the largest simplices only.
+    /// Data can only be on simplices of the largest dimension.
     void keep_markers() {
         if (!markers_.empty() && soup_.simplices[3].vertices.empty()) {
             soup_.cell_data.push_back({"marker", 1, std::move(markers_)});
@@ -439,7 +439,7 @@ private:
         soup_.cell_data.push_back({"neighbors", static_cast<int>(width), std::move(neighbors)});
     }
 
-    /// Across the facet opposite to corner i; -1 for none.
+    /// The neighbour across the facet opposite to corner i; -1 for none.
     std::int64_t neighbor(TetgenFile& file, const Array<Index>& vertices, std::size_t width, std::size_t cell,
                           std::size_t i) const {
         const auto given = file.in.parsed<std::int64_t>("a neighbor");
@@ -505,7 +505,7 @@ private:
         }
     }
 
-    /// Of a line's numbers; 0 if there are fewer.
+    /// The third number of a line; 0 if there are fewer.
     static std::int64_t third(FileCursor& line) {
         std::string_view word;
         for (int i = 0; i < 3; ++i) {
@@ -529,7 +529,7 @@ private:
         }
     }
 
-    /// Rows of a number, a place, and for regions an attribute and a largest volume, which may be left out.
+    /// Reads rows of a number, a place and, for regions, an attribute and an optional largest volume.
     void read_places(TetgenFile& file, const char* name, std::size_t least, std::size_t width) {
         if (file.in.at_end()) {
             return;

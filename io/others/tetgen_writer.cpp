@@ -18,13 +18,13 @@ namespace {
 
 template<class T>
 void append(std::string& text, T value) {
-    std::array<char, 32> digits; // the longest double has 24
+    std::array<char, 32> digits; // a double takes at most 24
     const auto [end, problem] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
     text.append(digits.data(), end);
     text += ' ';
 }
 
-/// A column's values in rows [begin, end), to be asked for one row after the other.
+/// A column's values as text, row after row.
 class ColumnText {
 public:
     explicit ColumnText(DataColumn data) : data_{std::move(data)} {}
@@ -62,7 +62,7 @@ private:
     std::size_t next_ = 0;
 };
 
-/// A line for each row or, where `break_after` says so, two, of which the first has that many columns.
+/// Writes a line for each row; with `break_after`, two lines, the first with that many columns.
 void write_rows(AtomicFile& file, std::size_t rows, const std::vector<DataColumn>& columns,
                 std::size_t break_after = 0) {
     constexpr std::size_t chunk = 4096;
@@ -121,7 +121,7 @@ std::vector<DataColumn> without(std::vector<DataColumn> columns, const DataColum
     return columns;
 }
 
-/// Number of each cell's group, 0 for none. The groups stand in the order of the cells.
+/// Number of each cell's group, 0 for none. Groups are in the order of the cells.
 DataColumn group_numbers(std::size_t cells, std::vector<MeshColumns::Group> given) {
     const auto number_of = [groups = std::move(given)](std::size_t cell) {
         const auto group = std::partition_point(groups.begin(), groups.end(),
@@ -161,7 +161,7 @@ private:
     }
     AtomicFile& open(const char* extension) { return files_.open(path_of(extension)); }
 
-    /// A file of another mesh would be read along with ours.
+    /// Refuses files of another mesh with the same stem, which would be read together with ours.
     void require_no_others() const {
         const auto& ours = files_.paths();
         for (const char* extension : {".ele", ".neigh", ".face"}) {
@@ -174,7 +174,8 @@ private:
         }
     }
 
-    /// Rows of a number, the leading column, attributes, and perhaps a marker, below a line of counts.
+    /// Writes a line of counts, then rows of a number, the leading column, attributes, and optionally a
+    /// marker.
     static void write_table(AtomicFile& file, const std::string& shape, const DataColumn& leading,
                             const std::vector<DataColumn>& attributes, const DataColumn* marker) {
         const std::size_t rows = std::visit([](const auto& column) { return column.rows(); }, leading.values);
@@ -257,8 +258,8 @@ private:
         write_rows(file, triangles.rows(), columns);
     }
 
-    /// In a .smesh a line of 3, corners and marker; in a .poly a line of 1 polygon, 0 holes and marker, and
-    /// one of 3 and the corners.
+    /// A facet in a .smesh is a line of 3, corners and marker; in a .poly, a line of 1 polygon, 0 holes and
+    /// marker, then one of 3 and the corners.
     void write_facets(AtomicFile& file, const std::optional<DataColumn>& marker) const {
         const std::size_t rows = mesh_.cells.rows();
         const auto all = [rows](std::int64_t value) {

@@ -17,7 +17,7 @@ void write_column(Hdf5Writer& out, const char* dataset, Hdf5Type type, const Col
     }
 }
 
-/// A dataset of `width` columns, or of any number where that is 0; `rows` receives how many rows it has.
+/// A dataset of `width` columns (0: any number); `rows` receives its number of rows.
 template<class T>
 Array<T> read_table(Hdf5Reader& in, const char* dataset, std::size_t& width, std::size_t& rows) {
     const Hdf5Dataset data = in.open(dataset);

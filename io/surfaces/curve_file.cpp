@@ -15,7 +15,7 @@ namespace slabhull::io {
 
 namespace {
 
-/// Titles start with a letter; a number may start with one only as "nan" or "inf", which is caught as such.
+/// Titles start with a letter; of numbers, only "nan" and "inf" do, which are refused elsewhere.
 bool holds_no_point(std::string_view line) {
     const std::size_t first = line.find_first_not_of(" \t");
     if (first == std::string_view::npos || line[first] == '#') {
@@ -56,7 +56,7 @@ struct Counts {
     std::size_t lower;
 };
 
-/// Two whole numbers, as a first line.
+/// The counts, if the first line has two whole numbers.
 std::optional<Counts> counts_in(const Point<3>& line) {
     constexpr double fewest = 2;
     constexpr double most = 1e6;
@@ -76,7 +76,8 @@ double extent_of(std::span<const Point<3>> points) {
     return extent;
 }
 
-/// One curve from the trailing edge over the upper side to the leading edge, and back on the lower one.
+/// Joins the sides to one curve: from the trailing edge over the upper side to the leading edge, back on the
+/// lower.
 void join_sides(Array<Point<3>>& points, const Counts& counts) {
     const auto lower = points.begin() + 1 + static_cast<std::ptrdiff_t>(counts.upper);
     Array<Point<3>> curve(std::make_reverse_iterator(lower), std::make_reverse_iterator(points.begin() + 1));
@@ -85,8 +86,8 @@ void join_sides(Array<Point<3>>& points, const Counts& counts) {
     points = std::move(curve);
 }
 
-/// Brings the points of a file in Lednicer's order into that of a curve. A file whose first line looks like
-/// counts, far larger than what follows, but that is not so, is refused.
+/// Reorders the points of a file in Lednicer's order along the curve. Refuses a file whose first line looks
+/// like counts, being far larger than what follows, but does not match the points.
 void settle_order(Soup& soup) {
     const auto counts = soup.points.size() > 4 ? counts_in(soup.points[0]) : std::nullopt;
     if (!counts) {

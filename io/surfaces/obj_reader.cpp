@@ -14,7 +14,7 @@ public:
     }
 
     void run() {
-        pass_byte_order_mark(in_); // or the first statement would be none that we know
+        pass_byte_order_mark(in_); // else the first statement would be unknown
         while (!in_.at_end()) {
             read_line(TextLine{in_});
         }

@@ -10,7 +10,7 @@ namespace slabhull::io {
 
 namespace {
 
-/// The next line that says anything.
+/// The next line that is not empty.
 TextLine next_line(FileCursor& in, const char* wanted) {
     while (!in.at_end()) {
         const TextLine line{in};
@@ -21,7 +21,7 @@ TextLine next_line(FileCursor& in, const char* wanted) {
     in.fail(fmt::format("the file ends where {} was expected", wanted));
 }
 
-/// The line of the counts: the second one, or what follows the first one's keyword.
+/// The line of counts: the second one, or the rest of the first one after its keyword.
 TextLine pass_head(FileCursor& in) {
     constexpr std::array<std::string_view, 5> kinds{"OFF", "COFF", "NOFF", "CNOFF", "STOFF"};
     TextLine line = next_line(in, "OFF");

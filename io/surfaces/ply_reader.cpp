@@ -39,7 +39,7 @@ PlyType type_named(std::string_view name) {
 struct Property {
     std::string name;
     PlyType type = PlyType::none;
-    PlyType count_type = PlyType::none; ///< of a list; none for a scalar
+    PlyType count_type = PlyType::none; ///< type of a list's count; none for a scalar
 
     bool is_list() const { return count_type != PlyType::none; }
 };
@@ -50,7 +50,7 @@ struct Element {
     std::vector<Property> properties;
 };
 
-/// What programs call the number of the part that a face belongs to.
+/// Whether a property has a usual name for the number of the part that a face belongs to.
 bool names_a_part(const Property& property) {
     constexpr std::array<std::string_view, 6> names{"patch", "group", "region",
                                                     "zone",  "part",  "material_index"};
@@ -249,7 +249,7 @@ private:
     SurfaceBuilder& surface_;
     std::vector<Element> elements_;
     std::vector<Index> corners_;
-    std::optional<std::int64_t> part_; ///< of the last face
+    std::optional<std::int64_t> part_; ///< part of the last face
     bool binary_ = false;
 };
 

@@ -53,7 +53,7 @@ bool is_planar(std::span<const Point<3>> corners, const Point<3>& normal, const 
     return most - least <= 2 * tolerance * norm(normal);
 }
 
-/// Seen against the normal, in the coordinate plane that it is nearest to: counterclockwise.
+/// The polygon projected to the nearest coordinate plane, so that it is counterclockwise.
 std::vector<Place> flattened(std::span<const Point<3>> corners, const Point<3>& normal) {
     std::size_t k = 0;
     for (std::size_t i = 1; i < 3; ++i) {
@@ -72,7 +72,7 @@ std::vector<Place> flattened(std::span<const Point<3>> corners, const Point<3>& 
 }
 
 /// Cuts ears off a counterclockwise polygon. Turns below the tolerance (a sine) count as straight, so that
-/// vertices on a side, rounded, do not end as triangles without an area.
+/// rounded vertices on a side do not give triangles without area.
 class EarClipper {
 public:
     EarClipper(const std::vector<Place>& places, double tolerance)
@@ -102,7 +102,7 @@ public:
     }
 
 private:
-    /// Positive to the left, 0 where it is straight.
+    /// Positive for a left turn, 0 if straight.
     double turn(std::size_t i, std::size_t j, std::size_t k) const {
         const Place a{places_[j][0] - places_[i][0], places_[j][1] - places_[i][1]};
         const Place b{places_[k][0] - places_[i][0], places_[k][1] - places_[i][1]};
@@ -111,7 +111,8 @@ private:
         return std::abs(value) <= tolerance_ * scale ? 0 : value;
     }
 
-    /// Its triangle's area by its longest side squared; not positive where it does not turn left.
+    /// Quality of a vertex's triangle, its area over the longest side squared; not positive unless it turns
+    /// left.
     double shape(std::size_t i) const {
         double longest_side = 0;
         const PolygonTriangle corners = triangle(i);
@@ -138,7 +139,8 @@ private:
         }
         const PolygonTriangle corners = triangle(i);
         for (std::size_t other = after_[corners[2]]; other != corners[0]; other = after_[other]) {
-            // What turns left is in a triangle only where another vertex that does not is in it, too.
+            // Only vertices that do not turn left are tested: if one that does is inside, so is one that does
+            // not.
             if (turn(before_[other], other, after_[other]) <= 0 && holds(corners, other)) {
                 return;
             }
@@ -155,7 +157,7 @@ private:
         } while (i != first_);
     }
 
-    /// Of four vertices, the ear that leaves the better triangle counts.
+    /// The best ear; of four vertices, also counts the triangle that is left.
     std::size_t best(std::size_t left) const {
         std::size_t result = first_;
         double most = no_ear;

@@ -17,20 +17,20 @@ namespace {
 constexpr std::size_t head_size = 84; // title and count
 constexpr std::size_t facet_size = 50;
 
-/// Whether it is that keyword, which is in lower case, in any case.
+/// Whether a word is a keyword, ignoring case; `keyword` is in lower case.
 bool is(std::string_view word, std::string_view keyword) {
     return word.size() == keyword.size() &&
            std::equal(word.begin(), word.end(), keyword.begin(),
                       [](unsigned char a, char b) { return static_cast<char>(std::tolower(a)) == b; });
 }
 
-/// Gives equal points of single precision one number, in the order in which they first come; 0 and -0 are
-/// equal. An open-addressed table of the numbers.
+/// Numbers points of single precision, equal ones alike, in the order of first occurrence; 0 and -0 are
+/// equal. An open-addressing hash table of the numbers.
 class Welder {
 public:
     explicit Welder(Array<Point<3>>& points) : points_{points}, table_(1024, no_index) {}
 
-    /// Not inlined: gcc 12 drops the rounding of two doubles to floats and back when it sees both ways.
+    /// Not inlined: gcc 12 would drop the rounding of two doubles to floats and back.
     [[gnu::noinline]] Index operator()(const std::array<float, 3>& x) {
         const Point<3> point{x[0], x[1], x[2]};
         if (2 * points_.size() >= table_.size()) {
@@ -87,7 +87,7 @@ public:
         const bool has_name = is(head.substr(0, 5), "solid");
         const auto count = size < head_size ? 0 : load<std::uint32_t>(head.data() + head_size - 4, false);
         const std::uint64_t binary_size = head_size + std::uint64_t{facet_size} * count;
-        if (size == binary_size) { // the only safe sign: binary files may start with "solid", too
+        if (size == binary_size) { // the only safe test: binary files may also start with "solid"
             read_binary();
         } else if (has_name) {
             in_.seek(0);
@@ -135,7 +135,7 @@ private:
     void read_facet() {
         expect("normal");
         for (int i = 0; i < 3; ++i) {
-            in_.word(); // normals are often nonsense, and not needed
+            in_.word(); // normals are often wrong, and not needed
         }
         expect("outer");
         expect("loop");

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t no_name = std::numeric_limits<std::size_t>::max();
 
-/// Without blanks around it and what would end it in other files.
+/// The name without blanks around it and without characters that would end it in other files.
 std::string tidy(std::string_view name) {
     constexpr std::string_view blanks = " \t\r\n";
     const std::size_t first = std::min(name.find_first_not_of(blanks), name.size());

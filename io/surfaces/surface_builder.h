@@ -14,14 +14,15 @@
 
 namespace slabhull::io {
 
-/// Names that hold from one face of a file on until the next name.
+/// Names of faces; each holds from one face of a file until the next name.
 class FaceLabels {
 public:
-    /// An empty name is no label. Names are stored as messages and files can show them.
+    /// Labels faces from `face` on; an empty name ends the label. Names are stored fit for messages and
+    /// files.
     void set(std::size_t face, std::string_view name);
-    /// How many names some of so many faces have.
+    /// Number of names in use among the first `faces` faces.
     std::size_t in_use(std::size_t faces) const;
-    /// Groups of the names that are in use, numbered from 1 as they come; nothing where there are none.
+    /// Makes groups of the names in use, numbered from 1 in order; none if there are no names.
     void give(std::size_t faces, SimplexBlock& block, PatchList& groups) const;
 
 private:
@@ -34,15 +35,15 @@ private:
     std::vector<std::pair<std::size_t, std::size_t>> runs_; ///< first face, name; no_name for none
 };
 
-/// Collects what a reader of surfaces finds. Faces are triangles or polygons, which are cut; places of labels
-/// are counts of triangles.
+/// Collects the faces that a reader of surfaces finds: triangles, or polygons, which are cut. Labels are
+/// placed by numbers of triangles.
 class SurfaceBuilder {
 public:
     Array<Point<3>> points;
-    std::vector<FaceLabels> labels; ///< the most telling first
+    std::vector<FaceLabels> labels; ///< the most specific first
 
     std::size_t triangles() const { return corners_.size() / 3; }
-    /// As the file counts, polygons once.
+    /// The number of faces in the file, polygons counted once.
     std::size_t faces() const { return faces_; }
 
     void add_triangle(Index a, Index b, Index c) {
@@ -51,12 +52,12 @@ public:
         corners_.push_back(c);
         count_face(1);
     }
-    /// A face of any length from 3 on, with vertices that exist.
+    /// Adds a face with at least 3 corners. Needs: vertices in range.
     PolygonFault add_face(std::span<const Index> corners);
-    /// A face of the file that is left out, for its corners fell together.
+    /// Counts a face of the file that is left out because its corners coincide.
     void skip_face();
 
-    /// The first labels that part the surface, else the first that name it, become its groups.
+    /// The soup. The first labels that divide the surface, else the first that name it, become its groups.
     Soup finish(const std::string& path);
 
 private:
@@ -66,7 +67,7 @@ private:
         }
         ++faces_;
     }
-    /// From now on, triangles are not counted as the file's faces are.
+    /// Starts storing face numbers, as triangles no longer correspond to faces.
     void start_tags();
     void remark(Soup& soup) const;
     void label(Soup& soup) const;
@@ -75,7 +76,7 @@ private:
     Array<std::int64_t> tags_; ///< the file's numbers, from 0; empty while each face is a triangle
     std::size_t faces_ = 0;
     std::size_t polygons_ = 0;
-    std::size_t pieces_ = 0; ///< triangles of the polygons
+    std::size_t pieces_ = 0; ///< triangles cut from polygons
     std::size_t skipped_ = 0;
     std::vector<Point<3>> polygon_;
     std::vector<PolygonTriangle> cut_;

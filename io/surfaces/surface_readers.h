@@ -6,7 +6,7 @@
 
 namespace slabhull::io {
 
-// Each goes through its file once and throws InputError with the line (or byte) and the face at fault.
+// Each reads its file once and throws InputError with the line (or byte) and the face at fault.
 
 void read_stl(FileBytes& file, SurfaceBuilder& surface);
 void read_off(FileBytes& file, SurfaceBuilder& surface);

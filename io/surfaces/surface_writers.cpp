@@ -34,7 +34,7 @@ void require_count(std::size_t count, std::size_t limit, const char* format, con
     }
 }
 
-/// Rows of three numbers each with something before it and the line's end behind.
+/// Writes rows of three numbers, each with a prefix and a line end.
 template<class T>
 void put_rows(TextStream& out, const Column<T>& column, std::string_view before, T offset) {
     for_each_row(column, 0, column.rows(), [&](std::size_t, const T* values) {
@@ -49,7 +49,7 @@ void put_rows(TextStream& out, const Column<T>& column, std::string_view before,
 
 using Corners = std::array<Point<3>, 3>;
 
-/// By the right-hand rule, of length 1; zero where the corners are in line.
+/// The unit normal by the right-hand rule; zero if the corners are collinear.
 Point<3> unit_normal(const Corners& corners) {
     Point<3> normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     const double length = std::hypot(normal[0], normal[1], normal[2]);

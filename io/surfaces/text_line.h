@@ -11,7 +11,7 @@
 
 namespace slabhull::io {
 
-/// Passes the mark that some editors put before UTF-8; to be called at the start of a file.
+/// Skips the byte order mark that some editors put before UTF-8; to be called at the start of a file.
 inline void pass_byte_order_mark(FileCursor& in) {
     constexpr std::string_view mark = "\xEF\xBB\xBF";
     if (in.remaining() < mark.size() ||
@@ -20,20 +20,20 @@ inline void pass_byte_order_mark(FileCursor& in) {
     }
 }
 
-/// The words of one line of a file, which the cursor has passed already and does not let go of.
+/// The words of one line of a file. The cursor is already past the line, which stays in memory.
 class TextLine {
 public:
-    /// The next line without what follows a '#'.
+    /// The next line without a comment after '#'.
     explicit TextLine(FileCursor& in) : in_{&in}, begin_{in.offset()}, rest_{in.line()} {
         rest_ = rest_.substr(0, rest_.find('#'));
         skip_blanks();
     }
 
     bool at_end() const { return rest_.empty(); }
-    /// What is left, from a word on.
+    /// The rest of the line.
     std::string_view rest() const { return rest_; }
 
-    /// Empty at the end.
+    /// The next word; empty at the end.
     std::string_view word() {
         std::size_t size = 0;
         while (size < rest_.size() && !is_blank(rest_[size])) {
@@ -49,7 +49,7 @@ public:
     T parsed(const char* what) {
         const char* end = rest_.data() + rest_.size();
         const char* begin = rest_.data();
-        if (begin != end && *begin == '+') { // from_chars knows no plus sign
+        if (begin != end && *begin == '+') { // from_chars accepts no plus sign
             ++begin;
         }
         T value{};
@@ -62,7 +62,7 @@ public:
         return value;
     }
 
-    /// Three coordinates; `number` and `kind` of what has them are for messages.
+    /// Three coordinates; `kind` and `number` name their owner in messages.
     Point<3> point(const char* kind, std::size_t number) {
         Point<3> x{};
         for (double& value : x) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tables as text: RFC 4180 as far as numbers need it, and the spellings of spreadsheets and numpy.
+// Tables as text: the part of RFC 4180 that numbers need, and the variants of spreadsheets and numpy.
 #include "slabhull/io/files.h"
 
 #include "io/files/file_cursor.h"
@@ -33,7 +33,7 @@ std::string_view unquoted(std::string_view text) {
     return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// Takes the next field off a line; the separator ' ' stands for any blanks.
+/// Removes the next field from a line; the separator ' ' stands for any blanks.
 std::string_view next_field(std::string_view& line, char separator) {
     const auto is_end = [separator](char c) { return separator == ' ' ? is_blank(c) : c == separator; };
     if (separator == ' ') {
@@ -82,7 +82,7 @@ private:
         return true;
     }
 
-    /// The first line that is not blank, perhaps behind a '#'.
+    /// Reads the names: the first line that is not blank, optionally after a '#'.
     void read_header() {
         std::string_view line;
         while (line.empty() && next_line(line)) {

@@ -18,12 +18,12 @@ bool is_digits(std::string_view word) {
     return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// Parentheses, and words between them.
+/// The tokens of a list: parentheses, and words between them.
 class ListTokens {
 public:
     explicit ListTokens(std::string_view text) : rest_{text} {}
 
-    /// Empty at the end.
+    /// The next token; empty at the end.
     std::string_view next() {
         skip();
         if (rest_.empty()) {

@@ -15,7 +15,7 @@ void fail_in_line(const std::string& path, std::size_t line, const std::string& 
 }
 
 bool parse_number(std::string_view text, double& value) {
-    if (text.starts_with('+') && !text.starts_with("+-")) { // from_chars knows no plus sign
+    if (text.starts_with('+') && !text.starts_with("+-")) { // from_chars accepts no plus sign
         text.remove_prefix(1);
     }
     const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -6,16 +6,16 @@
 #include <string>
 #include <string_view>
 
-// What readers of tables share.
+// Functions shared by readers of tables.
 namespace slabhull::io {
 
 /// Throws InputError: file, line, text.
 [[noreturn]] void fail_in_line(const std::string& path, std::size_t line, const std::string& text);
 
-/// Whether all of `text` is a number, which `value` receives; it may be infinite or none ("nan").
+/// Whether all of `text` is a number, which `value` receives; it may be infinite or NaN.
 bool parse_number(std::string_view text, double& value);
 
-/// The beginning of `text` in double quotes, fit for a terminal.
+/// The beginning of `text` in double quotes, safe for a terminal.
 std::string in_quotes(std::string_view text);
 
 /// Whether a text, after comments, begins like OpenFOAM's list of rows (time ((x y z) (roll pitch yaw))):

@@ -89,7 +89,7 @@ private:
 
 using Numbers = IntegerList;
 
-/// The integers of that name, one for each row.
+/// The array of integers with a name, one per row.
 const Numbers* numbers_called(const std::vector<DataArray>& arrays, const char* name) {
     const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& array) {
         return array.name == name && array.components == 1;
@@ -97,13 +97,13 @@ const Numbers* numbers_called(const std::vector<DataArray>& arrays, const char* 
     return found == arrays.end() ? nullptr : std::get_if<Numbers>(&found->values);
 }
 
-/// Which rows stay, in what order; and where each old row's first copy went.
+/// The rows to keep, in order, and the new row of each old row.
 struct Merge {
     Array<Index> rows;
     Array<Index> new_of;
 };
 
-/// Rows in the order of their numbers, each number once.
+/// Sorts rows by number and keeps one row per number.
 Merge by_number(const Numbers& numbers) {
     Array<Index> order(numbers.size());
     std::iota(order.begin(), order.end(), Index{0});
@@ -140,7 +140,7 @@ void drop(std::vector<DataArray>& arrays, const char* name) {
     std::erase_if(arrays, [&](const DataArray& array) { return array.name == name; });
 }
 
-/// Numbers that say no more than the order does.
+/// Drops numbers that only count the rows.
 void drop_if_counting(std::vector<DataArray>& arrays, const char* name) {
     const Numbers* numbers = numbers_called(arrays, name);
     std::int64_t next = 0;
@@ -172,7 +172,7 @@ void join_points(Soup& soup) {
 
 constexpr const char* ghost_array = "vtkGhostType";
 
-/// Cells that are not copies of other pieces', by VTK's mark.
+/// Cells that VTK's array does not mark as copies of other pieces' cells.
 Array<Index> own_cells(const Soup& soup, std::size_t cells) {
     constexpr std::int64_t copy = 1;
     const Numbers* marks = numbers_called(soup.cell_data, ghost_array);

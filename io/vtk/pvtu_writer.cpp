@@ -38,7 +38,7 @@ std::string section(const char* name, const std::vector<DataColumn>& data) {
     return xml + fmt::format("</{}>\n", name);
 }
 
-/// What all pieces have in common.
+/// The XML that describes what all pieces have in common.
 std::string head_of(const MeshColumns& piece) {
     return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
            "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PUnstructuredGrid GhostLevel=\"0\">\n" +

@@ -8,7 +8,7 @@
 
 namespace slabhull::io {
 
-/// Attribute of ours on a UInt8 array that holds texts, each ended by a zero byte. Other readers see numbers.
+/// Our attribute of a UInt8 array that holds texts, each ended by a zero byte. Other readers see numbers.
 inline constexpr const char* text_mark = "slabhull_text";
 
 /// VTK's name of a scalar type.
@@ -23,7 +23,7 @@ constexpr const char* vtk_name() {
     }
 }
 
-/// Calls use(T{}) with the scalar type of that name; false if there is none.
+/// Calls use(T{}) with the scalar type of a name; false if there is none.
 template<class Use>
 bool with_vtk_type(std::string_view name, const Use& use) {
     const auto try_types = [&]<class... T>(T... zero) {
@@ -67,7 +67,7 @@ constexpr bool vtk_is_curved(int type) {
     return type > 10 && vtk_simplex_dimension(type) > 0;
 }
 
-/// What the user calls a cell type that we refuse.
+/// The user's name of a cell type that we refuse.
 inline std::string vtk_type_name(int type) {
     switch (type) {
     case 1:

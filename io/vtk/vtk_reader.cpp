@@ -29,7 +29,7 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-/// Calls use(T{}) with the scalar type of that name; false if there is none. VTK writes its ids in 32 bits.
+/// Calls use(T{}) with the scalar type of a name; false if there is none. VTK writes its ids in 32 bits.
 template<class Use>
 bool with_legacy_type(const std::string& name, const Use& use) {
     const auto is = [&](auto... names) { return ((name == names) || ...); };
@@ -50,7 +50,7 @@ bool with_legacy_type(const std::string& name, const Use& use) {
 /// The cells in the order of the file.
 struct CellList {
     Array<Index> vertices;       ///< of all cells
-    Array<std::uint8_t> corners; ///< of each cell; 255 for more
+    Array<std::uint8_t> corners; ///< number of each cell's; 255 for more
     Array<std::uint8_t> types;   ///< VTK's number for each
 };
 
@@ -142,7 +142,7 @@ private:
         }
     }
 
-    /// Ends with a blank line. Tells which array of bytes is a text of ours.
+    /// Reads metadata up to a blank line. They mark arrays of bytes that are our texts.
     void read_metadata() {
         in_.line();
         std::string_view line = in_.line();
@@ -156,7 +156,7 @@ private:
 
     // --- values ---
 
-    /// A count of rows that `width` values of `bytes` each can still follow.
+    /// A checked count of rows of `width` values with `bytes` each.
     std::size_t counted(std::uint64_t rows, std::size_t width, std::size_t bytes, const char* what) const {
         return in_.plausible(rows, in_.binary() ? width * bytes : 2 * width - 1, what);
     }
@@ -187,7 +187,7 @@ private:
         }
     }
 
-    /// `rows` rows of values of that type as T.
+    /// Reads `rows` rows of values of a type and converts them to T.
     template<class T>
     Array<T> values(const std::string& type, std::uint64_t rows, std::size_t width, const char* what) {
         Array<T> result;
@@ -244,7 +244,7 @@ private:
         checked_index(cells_.corners.size(), "cells");
     }
 
-    /// Up to version 4: each cell's number of vertices and the vertices.
+    /// Reads cells up to version 4: the number of vertices and the vertices of each.
     void read_counted_cells(std::uint64_t claimed, std::uint64_t size) {
         const std::size_t total = counted(size, 1, sizeof(std::int32_t), "values of cells");
         in_.require(claimed <= total, fmt::format("{} cells are claimed in {} values", claimed, size));
@@ -268,7 +268,7 @@ private:
         in_.require(left == 0, fmt::format("{} values are claimed, {} more than the cells have", size, left));
     }
 
-    /// Since version 5: where each cell begins among the vertices of all, then these.
+    /// Reads cells since version 5: where each begins in the list of all vertices, then that list.
     void read_offset_cells(std::uint64_t offset_count, std::uint64_t size) {
         const Array<std::int64_t> offsets = cell_array("offsets", offset_count);
         const std::size_t first = cells_.corners.size();
@@ -300,7 +300,7 @@ private:
     }
 
     void begin_cell(std::int64_t corners) {
-        constexpr std::int64_t most = 255; // which no cell type that we read has
+        constexpr std::int64_t most = 255; // more than any cell type that we read has
         cells_.corners.push_back(static_cast<std::uint8_t>(std::min(corners, most)));
     }
 
@@ -324,7 +324,7 @@ private:
         }
     }
 
-    /// Of the next cell.
+    /// Checks and adds the type of the next cell.
     void add_type(int type) {
         const std::size_t cell = cells_.types.size();
         const int dimension = vtk_simplex_dimension(type);
@@ -343,7 +343,7 @@ private:
         cells_.types.push_back(static_cast<std::uint8_t>(type));
     }
 
-    /// Whatever their order in the file, VTK counts cells in this one.
+    /// VTK counts cells in the order vertices, lines, polygons, whatever the order in the file.
     void read_surface_cells(int type) {
         in_.require(cells_.types.empty() || cells_.types.back() < type,
                     "VERTICES, LINES and POLYGONS were expected in this order, each once");
@@ -401,7 +401,7 @@ private:
         add_array(*arrays_, name, type, width, *rows_);
     }
 
-    /// Colours have no place in a soup.
+    /// Skips colours, which a soup does not hold.
     void skip_colours(bool is_table) {
         in_.word();
         const auto claimed = in_.parsed<std::uint64_t>("a count of colours");
@@ -421,10 +421,10 @@ private:
     }
 
     void read_field() {
-        in_.word(); // a name of no use
+        in_.word(); // the name, which is not used
         const auto count = in_.parsed<std::uint64_t>("a count of arrays");
         in_.line();
-        for (std::uint64_t i = 0; i < count; ++i) { // each takes bytes, or the file ends
+        for (std::uint64_t i = 0; i < count; ++i) { // large counts fail at the end of the file
             read_field_array();
         }
     }
@@ -479,7 +479,7 @@ private:
         return texts;
     }
 
-    /// VTK's length of a text in 1, 2, 4 or 8 bytes: the upper two bits of the first tell which.
+    /// VTK's length of a text, in 1, 2, 4 or 8 bytes according to the first two bits.
     std::uint64_t text_size() {
         const auto first = value<std::uint8_t>("a text's length");
         const int bytes = 1 << (3 - (first >> 6));
@@ -554,9 +554,9 @@ private:
     Dataset dataset_ = Dataset::unknown;
     bool cells_by_offsets_ = false;
     bool points_read_ = false;
-    std::optional<std::size_t> rows_;          ///< of the data being read; none before the first
-    std::vector<DataArray>* arrays_ = nullptr; ///< where they go
-    std::vector<DataArray>* last_ = nullptr;   ///< ends with the array that was just read
+    std::optional<std::size_t> rows_;          ///< rows of the data being read; empty before the first
+    std::vector<DataArray>* arrays_ = nullptr; ///< destination of the arrays
+    std::vector<DataArray>* last_ = nullptr;   ///< the list that ends with the array just read
 };
 
 } // namespace

@@ -40,7 +40,7 @@ void write_values(AtomicFile& file, const Column<Given>& column) {
     file.write("\n");
 }
 
-/// meshio knows 64 bits as "long" only.
+/// meshio reads 64 bits only as "long".
 template<class Stored>
 constexpr const char* legacy_name() {
     return std::floating_point<Stored> ? "double" : sizeof(Stored) == 8 ? "long" : "int";
@@ -71,8 +71,8 @@ void write_array(AtomicFile& file, const DataColumn& data) {
         data.values);
 }
 
-/// Bytes, each text ended by a zero, and the name of their component tells what they are: meshio opens no
-/// file with a string array of VTK's own kind.
+/// Writes texts as bytes, each text ended by a zero, marked by the name of their component. meshio cannot
+/// open files with VTK's own string arrays.
 void write_texts(AtomicFile& file, const std::string& name, const std::vector<std::string>& texts) {
     std::string bytes;
     for (const std::string& text : texts) {
@@ -104,7 +104,7 @@ void write_field(AtomicFile& file, const std::vector<ArrayLike>& arrays) {
     }
 }
 
-/// Its ids are of 32 bits.
+/// Legacy files have ids of 32 bits.
 void require_countable(const MeshColumns& mesh) {
     const std::size_t cells = mesh.cells.rows();
     const std::size_t row = static_cast<std::size_t>(mesh.dimension) + 2;

@@ -12,19 +12,19 @@ namespace slabhull::io {
 
 namespace {
 
-/// The bytes of a range of a file one after the other, as they are or decoded from base64.
+/// The bytes of a range of a file in order, raw or decoded from base64.
 class ByteStream {
 public:
     ByteStream(FileBytes& file, FileRange range, bool is_base64)
         : file_{file}, at_{range.begin}, end_{range.end}, is_base64_{is_base64} {}
 
-    /// No more than so many can follow.
+    /// Upper bound of the number of bytes that follow.
     std::uint64_t most_left() const {
         return is_base64_ ? (end_ - at_) / 4 * 3 + (decoded_.size() - given_) : end_ - at_;
     }
     std::size_t at() const { return at_; }
 
-    /// The next ones, there until the next call.
+    /// The next bytes, valid until the next call.
     std::string_view next(std::uint64_t size) {
         if (size > most_left()) {
             throw PayloadError{"its data reach beyond the end of the file"};
@@ -59,10 +59,10 @@ private:
     std::size_t end_;
     bool is_base64_;
     Array<char> decoded_;
-    std::size_t given_ = 0; ///< of those
+    std::size_t given_ = 0; ///< bytes of decoded_ already returned
 };
 
-/// What stands in front of packed blocks: all are of `block_bytes`, but for the last one.
+/// The sizes in front of packed blocks: all unpack to `block_bytes`, except perhaps the last.
 struct BlockHead {
     std::uint64_t blocks = 0;
     std::uint64_t block_bytes = 0;
@@ -101,8 +101,8 @@ private:
         }
     }
 
-    /// Where blocks are packed, the numbers are: blocks, bytes of a block, bytes of the last one, and the
-    /// packed size of each.
+    /// Reads packed blocks. The numbers before them are: blocks, bytes of a block, bytes of the last one, and
+    /// the packed size of each.
     void packed() {
         BlockHead head;
         head.blocks = word(in_.next(format_.word_bytes), 0);
@@ -146,10 +146,10 @@ private:
         return size + head.last_bytes;
     }
 
-    /// Portions are multiples of 8 bytes, whatever the blocks are.
+    /// Passes portions of multiples of 8 bytes, whatever the block size.
     void unpack_blocks(const BlockHead& head, std::string_view words) {
         Array<char> portion;
-        std::size_t left = 0; // of the block before
+        std::size_t left = 0; // bytes left from the block before
         for (std::uint64_t block = 0; block < head.blocks; ++block) {
             const std::uint64_t unpacked = head.bytes_of(block);
             portion.resize(left + unpacked);

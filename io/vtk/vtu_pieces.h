@@ -10,8 +10,8 @@
 
 namespace slabhull::io {
 
-/// Like read_vtu(), but a file without points and cells is an empty soup: parallel writers leave such. Curved
-/// cells, where they are read and all of one kind, have no numbers of their own.
+/// Like read_vtu(), but a file without points and cells is an empty soup, as parallel writers make such
+/// files. Curved cells, if they are read and all of one kind, get no tags.
 Soup read_vtu_piece(const std::filesystem::path& path, const ReadOptions& options);
 
 /// The files that a .pvtu names, as it names them. Throws InputError.

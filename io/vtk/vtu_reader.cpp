@@ -32,7 +32,7 @@ namespace slabhull::io {
 
 namespace {
 
-/// An array's values as they stand in the file: bytes, or text.
+/// An array's values in the file: bytes, or text.
 struct Stored {
     FileRange range;
     bool is_text = false;
@@ -41,7 +41,7 @@ struct Stored {
 
 constexpr std::uint64_t any_count = std::numeric_limits<std::uint64_t>::max();
 
-/// The product, or the largest number where it is larger.
+/// The product, or the largest number if it overflows.
 std::uint64_t times(std::uint64_t a, std::uint64_t b) {
     return b > 0 && a > any_count / b ? any_count : a * b;
 }
@@ -161,10 +161,10 @@ private:
         return {range, false, skeleton_.appended_is_base64()};
     }
 
-    /// All values of an array, which is of that type, one after the other: start(n), which throws unless so
-    /// many are wanted, gives their place, and then each(place, i, value) gets them, the first before all
-    /// others, from several threads. Packed arrays that hold more than `count` are refused; any_count: any
-    /// number is wanted.
+    /// Reads all values of an array of a type. start(n) throws if n values are not expected, else returns
+    /// their place. Then each(place, i, value) is called for all values, from several threads, but for the
+    /// first value before all others. Packed arrays of more than `count` values are refused; any_count: any
+    /// number is allowed.
     template<class Start, class Each>
     void values(const pugi::xml_node& node, std::string_view type, std::uint64_t count, const Start& start,
                 const Each& each) {
@@ -182,7 +182,7 @@ private:
         }
     }
 
-    /// Arrays that share bytes could make a small file a large mesh.
+    /// Refuses arrays that share bytes, by which a small file could make a large mesh.
     template<class S, class Start, class Each>
     void unpack_values(const pugi::xml_node& node, const Stored& source, std::uint64_t most,
                        const Start& start, const Each& each) {
@@ -218,8 +218,8 @@ private:
         }
     }
 
-    /// Calls use(i, value) for all values in that range: for the first ones before all others, for these from
-    /// several threads, which take them from the file past its window.
+    /// Calls use(i, value) for all values in a range: first for the first ones, then for the others from
+    /// several threads, which read directly from the file.
     template<class S, class Use>
     void copy_values(FileRange range, const Use& use) const {
         constexpr std::size_t piece = std::size_t{1} << 17;
@@ -231,7 +231,7 @@ private:
         });
     }
 
-    /// Values [begin, end) of those that stand from that byte on.
+    /// The same for values [begin, end) of those that begin at a byte.
     template<class S, class Use>
     void copy_values(std::size_t byte, std::size_t begin, std::size_t end, const Use& use) const {
         constexpr std::size_t chunk = (std::size_t{1} << 15) / sizeof(S); // small enough to stay in the cache
@@ -295,8 +295,8 @@ private:
 
     // --- mesh ---
 
-    /// Addresses for all that the pieces claim, so that the arrays never move: memory is taken only by what
-    /// comes. What would be many times the file must prove itself piece by piece.
+    /// Adds up the sizes that the pieces claim. Arrays reserve addresses for them, so that they never move,
+    /// and take memory only as they are filled. Claims of many times the file's size are not reserved.
     void count_all(const pugi::xml_node& grid) {
         for (const pugi::xml_node piece : grid.children("Piece")) {
             all_points_ += count_attribute(piece, "NumberOfPoints");
@@ -311,7 +311,7 @@ private:
         }
     }
 
-    /// Room for `more` values behind those that there are; the place of the first.
+    /// Appends `more` values; returns the place of the first.
     template<class T>
     T* grow(Array<T>& values, std::uint64_t more, std::uint64_t all) const {
         reserve(values, all);
@@ -320,11 +320,11 @@ private:
         return values.data() + first;
     }
 
-    /// Behind what the pieces before have given.
+    /// Appends a piece to those before.
     void read_piece(const pugi::xml_node& piece) {
         const std::uint64_t points = count_attribute(piece, "NumberOfPoints");
         const std::uint64_t cells = count_attribute(piece, "NumberOfCells");
-        if (points == 0 && cells == 0) { // as parallel writers leave them, perhaps without arrays
+        if (points == 0 && cells == 0) { // parallel writers make such pieces, even without arrays
             return;
         }
         first_point_ = soup_.points.size();
@@ -378,8 +378,8 @@ private:
         cells_before_ += count;
     }
 
-    /// Whether all cells, also those of the pieces before, are straight simplices of one kind; otherwise
-    /// their types are in types_.
+    /// Whether all cells, including those of earlier pieces, are straight simplices of one kind; else their
+    /// types are in types_.
     bool has_equal_cells(const pugi::xml_node& node, std::uint64_t claimed) {
         const auto start = [&](std::uint64_t types) {
             if (types != claimed) {
@@ -418,7 +418,7 @@ private:
         return static_cast<std::uint8_t>(number);
     }
 
-    /// From now on, cells are of several kinds: those of the pieces before get tags, too.
+    /// Called when cells turn out to be of several kinds: gives tags to those of earlier pieces.
     void separate_cells_before() {
         if (!is_mixed_ && dimension_ != 0) {
             auto& tags = soup_.simplices[dimension_].tags;
@@ -520,7 +520,7 @@ private:
 
     // --- data ---
 
-    /// Every piece has the same arrays in the same order.
+    /// Reads the data of a piece; every piece must have the same arrays in the same order.
     void read_data(std::vector<DataArray>& arrays, const pugi::xml_node& piece, const char* section,
                    std::uint64_t rows, std::uint64_t all_rows) {
         std::size_t place = 0;
@@ -540,7 +540,7 @@ private:
         }
     }
 
-    /// What an array is, without its values.
+    /// An array's name, type and components, without values.
     DataArray empty_array(const pugi::xml_node& node) const {
         DataArray array;
         array.name = node.attribute("Name").value();
@@ -570,7 +570,7 @@ private:
         return array;
     }
 
-    /// As many rows as given, or any number up to `all_rows`.
+    /// Appends an array's values: `rows` rows if given, else any number up to `all_rows`.
     void append_values(const pugi::xml_node& node, DataArray& array, std::optional<std::uint64_t> rows,
                        std::uint64_t all_rows) {
         const auto width = static_cast<std::uint64_t>(array.components);
@@ -602,7 +602,7 @@ private:
         }
     }
 
-    /// In 32 bits where all fit, as they mostly do whatever their type is; else the array is read once more.
+    /// Integers in 32 bits if all fit, as they mostly do; else the array is read again in 64 bits.
     template<class RequireRows>
     IntegerList integers(const pugi::xml_node& node, std::uint64_t most, const RequireRows& require_rows) {
         std::atomic<bool> all_fit = true;
@@ -618,7 +618,7 @@ private:
                                       [&](auto value) { fail(node, fmt::format("{} is too large", value)); });
     }
 
-    /// Calls too_large(value) for those that do not fit, from several threads.
+    /// Integers as T. Calls too_large(value), from several threads, for those that do not fit.
     template<class T, class RequireRows, class TooLarge>
     Array<T> integers(const pugi::xml_node& node, std::uint64_t most, const RequireRows& require_rows,
                       const TooLarge& too_large) {
@@ -628,7 +628,7 @@ private:
             return grow(all, count, count);
         };
         values(node, type_of(node), most, start, [&](T* place, std::uint64_t i, auto value) {
-            if constexpr (std::integral<decltype(value)>) { // which they are here
+            if constexpr (std::integral<decltype(value)>) { // always so here
                 if (std::in_range<T>(value)) {
                     place[i] = static_cast<T>(value);
                 } else {
@@ -663,13 +663,13 @@ private:
     CornersOnly corners_only_;
     pugi::xml_document document_;
     PayloadFormat format_;
-    std::uint64_t consumed_ = 0; ///< bytes of the file that made arrays
-    std::size_t dimension_ = 0;  ///< 0 until there was a cell in a piece of equal cells
-    bool is_mixed_ = false;      ///< cells are of several kinds, or curved: their tags are their rows
-    Array<std::uint8_t> types_;  ///< of the piece's cells where it is mixed
+    std::uint64_t consumed_ = 0; ///< bytes of the file that arrays were read from
+    std::size_t dimension_ = 0;  ///< of equal cells; 0 until there is one
+    bool is_mixed_ = false;      ///< cells are of several kinds or curved: tags are their rows
+    Array<std::uint8_t> types_;  ///< types of the piece's cells, if mixed
     std::uint64_t cells_before_ = 0;
-    std::size_t first_point_ = 0;  ///< of the piece
-    std::uint64_t all_points_ = 0; ///< that the pieces claim
+    std::size_t first_point_ = 0;  ///< first point of the piece
+    std::uint64_t all_points_ = 0; ///< points that the pieces claim
     std::uint64_t all_cells_ = 0;
     bool is_first_piece_ = true;
     Soup soup_;

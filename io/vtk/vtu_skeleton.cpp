@@ -12,7 +12,7 @@ VtuSkeleton::VtuSkeleton(FileBytes& file) : file_{file} {
     }
 }
 
-/// A text and a tag; false at the end.
+/// Reads a text and a tag; false at the end.
 bool VtuSkeleton::next() {
     pass_blanks();
     const std::size_t begin = at_;
@@ -45,7 +45,7 @@ bool VtuSkeleton::next() {
     return !is_last;
 }
 
-/// Up to the first of these characters; false: there is none.
+/// Moves to the first of some characters, keeping what it passes if wanted; false if there is none.
 bool VtuSkeleton::pass(std::string_view stops, std::string* kept) {
     while (at_ < file_.size()) {
         file_.load(at_, at_ + 1);
@@ -80,7 +80,7 @@ bool VtuSkeleton::starts_with(std::string_view text) {
     return file_.view().substr(at_, std::min(file_.loaded_end() - at_, text.size())) == text;
 }
 
-/// '>' may stand in an attribute's value.
+/// Moves past a tag, in which '>' may be part of an attribute's value.
 bool VtuSkeleton::pass_tag() {
     while (pass("\"'>", &xml_)) {
         const char stop = file_.view()[at_++];

@@ -16,25 +16,25 @@ struct FileRange {
     std::size_t end = 0;
 };
 
-/// The XML of a VTU file without its texts, which may be as large as the mesh: each is one 'x'. Blanks
-/// between tags, comments, CDATA and the appended section, which is no XML, are left out.
+/// The XML of a VTU file without its texts, which may be as large as the mesh: each is replaced by one 'x'.
+/// Blanks between tags, comments, CDATA and the appended section, which is not XML, are left out.
 class VtuSkeleton {
 public:
     explicit VtuSkeleton(FileBytes& file);
 
     std::string& xml() { return xml_; }
-    /// Where the text stands in the file that begins at that byte of xml(); nothing if none does.
+    /// The range in the file of the text that begins at a byte of xml(); empty if none does.
     FileRange text(std::ptrdiff_t byte) const;
-    /// Where that byte of xml() stands in the file.
+    /// The position in the file of a byte of xml().
     std::ptrdiff_t in_file(std::ptrdiff_t byte) const;
 
-    /// What follows the underscore of the appended section.
+    /// The appended section after its underscore.
     FileRange appended() const { return appended_; }
     bool appended_is_base64() const { return appended_is_base64_; }
 
 private:
     struct Place {
-        std::size_t byte; ///< of xml_
+        std::size_t byte; ///< position in xml_
         FileRange text;   ///< empty for a tag, which begins there
     };
 

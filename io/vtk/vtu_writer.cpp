@@ -31,7 +31,7 @@ struct StoredArray {
     std::size_t rows = 0;
     std::size_t row_bytes = 0;
     RowFill fill;
-    std::string attributes; ///< further ones, each after a blank
+    std::string attributes; ///< further attributes, each after a blank
 
     std::uint64_t bytes() const { return rows * row_bytes; }
 };
@@ -64,7 +64,7 @@ StoredArray stored(const DataColumn& data) {
         data.values);
 }
 
-/// Int32 where the largest value fits, which halves the file. VTK wants these arrays flat, whatever the
+/// Indices in Int32 if the largest fits, which halves the file. VTK requires flat arrays, whatever the
 /// column's width.
 StoredArray stored_indices(std::string name, const Column<std::int64_t>& column, std::size_t largest) {
     StoredArray array = largest <= std::numeric_limits<std::int32_t>::max()
@@ -74,8 +74,8 @@ StoredArray stored_indices(std::string name, const Column<std::int64_t>& column,
     return array;
 }
 
-/// Field arrays are small and copied. Texts are bytes, each text ended by a zero: VTK's own string arrays
-/// would keep meshio from opening the file at all.
+/// Field arrays are small and copied. Texts are bytes, each text ended by a zero: meshio cannot open files
+/// with VTK's own string arrays.
 StoredArray stored(const DataArray& data) {
     if (const auto* texts = std::get_if<std::vector<std::string>>(&data.values)) {
         std::string bytes;
@@ -95,12 +95,12 @@ StoredArray stored(const DataArray& data) {
     return stored<double>(data.name, Column<double>::over(std::span<const double>{reals}, data.components));
 }
 
-/// The arrays by their place in the file, and the XML around them.
+/// The arrays in the order of the file, and the XML around them.
 class VtuLayout {
 public:
     struct Part {
         std::string before; ///< XML in front of the array's element
-        std::string tag;    ///< its element, begun
+        std::string tag;    ///< the open start tag of its element
         StoredArray array;
     };
 
@@ -120,7 +120,7 @@ public:
     }
 
     const std::vector<Part>& parts() const { return parts_; }
-    /// XML behind the last array.
+    /// XML after the last array.
     const std::string& end() const { return xml_; }
 
 private:
@@ -128,14 +128,14 @@ private:
     std::vector<Part> parts_;
 };
 
-/// Bytes that an array takes in the appended section, and that it takes there in meshio's unpacked copy.
+/// Bytes of an array in the appended section, and in meshio's unpacked copy of it.
 struct ArraySize {
     std::uint64_t in_file = 0;
     std::uint64_t in_copy = 0;
 };
 
-/// meshio replaces offsets by those of its base64 copy one after the other, and finds the next array by its
-/// offset: one that equals a replaced offset leads it astray.
+/// Whether meshio would confuse arrays. It replaces offsets one after the other by those of its base64 copy
+/// and finds the next array by its offset, which may equal a replaced one.
 bool leads_meshio_astray(const std::vector<ArraySize>& sizes) {
     std::vector<std::uint64_t> replaced;
     std::uint64_t offset = 0;
@@ -176,7 +176,7 @@ void add_cells(VtuLayout& layout, const MeshColumns& mesh) {
     layout.close("Cells");
 }
 
-/// With a field array of `padding` bytes in front, where that is not 0.
+/// The layout, with a field array of `padding` bytes in front unless that is 0.
 VtuLayout lay_out(const MeshColumns& mesh, std::size_t padding) {
     VtuLayout layout;
     layout.open("FieldData");
@@ -240,13 +240,13 @@ void write_raw(AtomicFile& file, const MeshColumns& mesh) {
 
 // --- packed arrays ---
 
-/// Rows of a block of about a quarter of a megabyte.
+/// Number of rows in a block of about a quarter of a megabyte.
 std::size_t block_rows_of(const StoredArray& array) {
     constexpr std::size_t block_bytes = std::size_t{256} << 10;
     return std::max<std::size_t>(1, block_bytes / std::max<std::size_t>(1, array.row_bytes));
 }
 
-/// An array whose packed blocks wait in a spool, as their sizes stand in front of the first.
+/// An array whose packed blocks are in a spool, as their sizes must come before them in the file.
 struct PackedArray {
     std::vector<std::uint64_t>
         head; ///< blocks, bytes of one, bytes of a shorter last one, packed bytes of each
@@ -302,7 +302,7 @@ void write_packed(AtomicFile& file, const MeshColumns& mesh, Compressor compress
 
 // --- text ---
 
-/// The shortest digits that give the same number again.
+/// The fewest digits that read back exactly.
 template<class T>
 std::string printed(std::string_view bytes, std::size_t row_bytes) {
     constexpr std::size_t longest = 32;

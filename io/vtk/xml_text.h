@@ -6,7 +6,7 @@
 
 namespace slabhull::io {
 
-/// The text as it stands between the quotation marks of an XML attribute.
+/// The text escaped for the value of an XML attribute.
 std::string escaped(std::string_view text);
 
 } // namespace slabhull::io

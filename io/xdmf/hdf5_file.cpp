@@ -18,7 +18,7 @@ namespace slabhull::io {
 
 namespace {
 
-/// HDF5 prints its errors while there is none of these.
+/// Keeps HDF5 from printing errors while it exists.
 class Silence {
 public:
     Silence() {
@@ -34,7 +34,7 @@ private:
     void* data_ = nullptr;
 };
 
-/// Something of HDF5's that must be closed; negative where it could not be had.
+/// An HDF5 handle that must be closed; negative if it could not be opened.
 class Handle {
 public:
     using Close = herr_t (*)(hid_t);
@@ -63,7 +63,7 @@ herr_t keep_first(unsigned number, const H5E_error2_t* error, void* text) {
     return 0;
 }
 
-/// What HDF5 says of its last error; of a long list with times and addresses only the system's words.
+/// HDF5's text for its last error, cut to the system's message if there is one.
 std::string cause() {
     std::string text;
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &text);
@@ -75,7 +75,7 @@ std::string cause() {
     return text.empty() ? "HDF5 does not say why" : text;
 }
 
-/// Files on disks that know no locks can be opened, too.
+/// File access that also works on disks without locks.
 Handle file_access() {
     Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
 #if H5_VERSION_GE(1, 10, 7)
@@ -174,9 +174,9 @@ void Hdf5Writer::close() {
 
 struct Hdf5Reader::Impl {
     std::string name;
-    std::uint64_t bytes; ///< of the file
+    std::uint64_t bytes; ///< size of the file
     Handle file;
-    std::uint64_t consumed = 0; ///< bytes of it that became datasets
+    std::uint64_t consumed = 0; ///< bytes of the file that datasets were read from
 };
 
 namespace {
@@ -185,7 +185,7 @@ herr_t refuse_link(const char*, const char*, const char*, const char*, unsigned*
     return -1;
 }
 
-/// Told of numbers that do not fit their new type.
+/// Called for numbers that do not fit their new type.
 H5T_conv_ret_t note_range(H5T_conv_except_t kind, hid_t, hid_t, void*, void*, void* out_of_range) {
     if (kind == H5T_CONV_EXCEPT_RANGE_HI || kind == H5T_CONV_EXCEPT_RANGE_LOW) {
         *static_cast<bool*>(out_of_range) = true;
@@ -223,7 +223,7 @@ struct Hdf5Dataset::Impl {
     std::string name;
     Handle data;
     std::vector<std::uint64_t> extents{};
-    std::uint64_t count = 1; ///< of the values
+    std::uint64_t count = 1; ///< number of values
     bool reals = false;
     bool chunked = false;
 
@@ -250,7 +250,7 @@ struct Hdf5Dataset::Impl {
         }
     }
 
-    /// Bytes of a value in the file.
+    /// Checks the type; returns the bytes of a value in the file.
     std::uint64_t find_type() {
         const Handle type{H5Dget_type(data), H5Tclose};
         const H5T_class_t kind = H5Tget_class(type);
@@ -261,7 +261,7 @@ struct Hdf5Dataset::Impl {
         return size;
     }
 
-    /// Whether the values are packed.
+    /// Checks storage and filters; returns whether the values are packed.
     bool check_layout(const Handle& creation) const {
         const H5D_layout_t layout = H5Pget_layout(creation);
         require(layout == H5D_CONTIGUOUS || layout == H5D_CHUNKED || layout == H5D_COMPACT,
@@ -284,7 +284,7 @@ struct Hdf5Dataset::Impl {
         return packed;
     }
 
-    /// A chunk is held in memory whole.
+    /// Checks the size of chunks, as each is held in memory whole.
     void check_chunk(const Handle& creation, std::uint64_t value_bytes, std::uint64_t most) {
         chunked = H5Pget_layout(creation) == H5D_CHUNKED;
         if (!chunked) {
@@ -326,7 +326,7 @@ struct Hdf5Dataset::Impl {
             return;
         }
         const auto transfer = [&] { transfer_to(out, rows, used, width); };
-        if (chunked) { // which HDF5 must understand, other than plain bytes
+        if (chunked) { // HDF5 must decode chunks, unlike plain bytes
             rehearse(fmt::format("{}: dataset {}", file.name, name), 2 * count * sizeof(T) + file.bytes,
                      transfer);
         }

@@ -12,25 +12,25 @@
 
 namespace slabhull::io {
 
-// HDF5 files, from one thread at a time. All of it throws UsageError in a build without HDF5 (has_hdf5()).
+// HDF5 files, for one thread at a time. Everything throws UsageError in a build without HDF5 (has_hdf5()).
 
-/// The numbers of a dataset, in the file little-endian.
+/// The number type of a dataset, little-endian in the file.
 enum class Hdf5Type { float64, int64, int32, uint8 };
 
 /// Makes a file with datasets. Throws OutputError.
 class Hdf5Writer {
 public:
-    /// Writes over `path`; messages call it `name`.
+    /// Overwrites `path`; messages call it `name`.
     Hdf5Writer(const std::filesystem::path& path, std::string name);
     ~Hdf5Writer();
     Hdf5Writer(const Hdf5Writer&) = delete;
     Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
-    /// A dataset of rows x components, or of rows where there is one component; a few megabytes at a time,
-    /// made by several threads. "/group/name": the group is made where it is missing.
+    /// Writes a dataset of rows x components, or of rows if there is one component; several threads make a
+    /// few megabytes at a time. "/group/name": the group is made if it is missing.
     void write(const std::string& dataset, Hdf5Type type, std::size_t rows, int components,
                const RowFill& fill);
-    /// What was written is in the file only after it.
+    /// Closes the file; data are complete only after it.
     void close();
 
 private:
@@ -40,10 +40,10 @@ private:
 
 class Hdf5Dataset;
 
-/// A file to be read. Throws InputError naming the file and the dataset. Damaged files are not trusted: a
-/// dataset must have its bytes in the file, packed at most as deflate can, and no byte is read twice. Refused
-/// are links to other files, data elsewhere, filters other than deflate, shuffle and checksums, and numbers
-/// other than integers and reals.
+/// A file to be read. Throws InputError naming the file and the dataset. Files may be damaged: a dataset must
+/// have its bytes in the file, packed no denser than deflate can, and no byte is read twice. Links to other
+/// files, external data, filters other than deflate, shuffle and checksums, and numbers other than integers
+/// and reals are refused.
 class Hdf5Reader {
 public:
     explicit Hdf5Reader(const std::filesystem::path& path);
@@ -66,8 +66,8 @@ public:
 
     const std::vector<std::uint64_t>& extents() const;
     bool has_reals() const;
-    /// All values, row by row, straight to `out`: rows of `width` numbers there, of which the first `used`
-    /// are set. Integers that do not fit are refused.
+    /// Reads all values, row by row, to `out`, where rows have `width` numbers, of which the first `used` are
+    /// set. Integers that do not fit are refused.
     void read(double* out, std::size_t rows, std::size_t used, std::size_t width) const;
     void read(std::int64_t* out, std::size_t rows, std::size_t used, std::size_t width) const;
     void read(Index* out, std::size_t rows, std::size_t used, std::size_t width) const;

@@ -20,7 +20,7 @@ void set_limit(int resource, rlim_t limit) {
     ::setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
-/// Sanitizers want terabytes of addresses, so they know no limit.
+/// Limits memory, except under sanitizers, which need terabytes of addresses.
 void limit_memory([[maybe_unused]] std::uint64_t more) {
 #ifndef __SANITIZE_ADDRESS__
     unsigned long pages = 0;

@@ -7,11 +7,10 @@
 
 namespace slabhull::io {
 
-/// Does in a child process what a foreign library that damaged files can crash is about to do here. The child
-/// has the same memory at the same addresses, so what it survives will be survived here. Throws InputError
-/// when it crashes, loops (more than 20 s and a second for each megabyte of `bytes`), takes `bytes` and 256
-/// MiB more memory than there is, or itself throws one, and then with its words. `name` is what is being
-/// read.
+/// Runs `work` in a child process first, as damaged files can crash a foreign library. The child has the same
+/// memory at the same addresses, so work that succeeds there succeeds here. Throws InputError if the child
+/// crashes, hangs (more than 20 s plus a second per megabyte of `bytes`), or takes more than `bytes` plus 256
+/// MiB of additional memory; if it throws InputError itself, with that text. `name` is what is being read.
 void rehearse(const std::string& name, std::uint64_t bytes, const std::function<void()>& work);
 
 } // namespace slabhull::io

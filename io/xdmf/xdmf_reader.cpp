@@ -46,14 +46,14 @@ bool same_word(std::string_view a, std::string_view b) {
                       [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-/// The values of a DataItem, wherever they stand, not yet taken from there.
+/// A DataItem, wherever its values are stored, before they are read.
 struct Item {
     pugi::xml_node node;
     std::vector<std::uint64_t> extents;
     std::uint64_t count = 1;
-    std::string type;      ///< as VTK calls it, of text and bytes
+    std::string type;      ///< VTK's name, for text and bytes
     std::string_view text; ///< the values as text ..
-    Array<char> bytes;     ///< .. or as bytes, in which order ..
+    Array<char> bytes;     ///< .. or as bytes, and their order ..
     bool swapped = false;
     std::optional<Hdf5Dataset> dataset; ///< .. or in HDF5
 
@@ -119,7 +119,7 @@ private:
         return child;
     }
 
-    /// The one grid, in whatever collections of one.
+    /// The only grid, perhaps within collections of one.
     pugi::xml_node find_grid() const {
         const pugi::xml_node root = document_.child("Xdmf");
         if (!root) {
@@ -132,7 +132,7 @@ private:
         return grid;
     }
 
-    /// Versions 2 and 3 call it differently, and files mix them.
+    /// The type of an element. Versions 2 and 3 name the attribute differently, and files mix both.
     std::string_view type_of(const pugi::xml_node& node, const char* long_name) const {
         const pugi::xml_attribute type = node.attribute(long_name);
         return (type ? type : node.attribute("Type")).value();
@@ -252,7 +252,7 @@ private:
         });
     }
 
-    /// All values of rows of `used`, to rows of `width` numbers.
+    /// Reads all values: rows of `used` numbers into rows of `width`.
     template<class T>
     void take(const Item& item, T* out, std::size_t used, std::size_t width) const {
         const auto rows = static_cast<std::size_t>(item.count / used);
@@ -383,7 +383,7 @@ private:
 
     struct Curved {
         std::size_t dimension;
-        std::size_t nodes; ///< the corners first
+        std::size_t nodes; ///< nodes per cell, corners first
     };
 
     static std::optional<Curved> curved_topology(std::string_view type) {
@@ -433,7 +433,8 @@ private:
                                soup_.points.size()));
     }
 
-    /// Each cell is the number of its kind, of lines and points also how many there are, and the points.
+    /// Each cell is the number of its kind, then, for lines and points, the number of its points, then the
+    /// points.
     void read_mixed_cells(const pugi::xml_node& node, const Item& item) {
         checked_index(item.count, "numbers of points");
         Array<std::int64_t> numbers(item.count);
@@ -457,7 +458,7 @@ private:
         }
     }
 
-    /// Keeps its number in the file as its tag, as cell data go by it.
+    /// Adds a cell with its number in the file as its tag, by which cell data are ordered.
     void add_cell(const pugi::xml_node& node, std::size_t dimension, std::span<const std::int64_t> vertices) {
         SimplexBlock& block = soup_.simplices[dimension];
         for (const std::int64_t vertex : vertices) {
@@ -486,7 +487,7 @@ private:
         }
     }
 
-    /// What the writer adds to points and times.
+    /// Whether an attribute is the one that our writer adds, repeating points and times.
     bool is_our_space_time(const pugi::xml_node& node) const {
         return std::string_view{node.attribute("Name").value()} == xdmf_space_time &&
                trimmed(node.child("DataItem").text().get()).ends_with(fmt::format(":/{}", xdmf_space_time));
@@ -498,7 +499,7 @@ private:
         }
     }
 
-    /// Of any number of rows where none is given.
+    /// The array of an element; of any number of rows if none is given.
     DataArray data_array(const pugi::xml_node& node, std::optional<std::size_t> rows) {
         DataArray array;
         array.name = node.attribute("Name").value();
@@ -518,8 +519,8 @@ private:
         return array;
     }
 
-    /// Components of a row: what the extents say behind the first or, where there is one, the attribute's
-    /// type.
+    /// Components of a row: the product of the extents after the first or, if there is only one, by the
+    /// attribute's type.
     std::uint64_t width_of(const pugi::xml_node& node, const Item& item,
                            std::optional<std::size_t> rows) const {
         std::uint64_t width = 1;

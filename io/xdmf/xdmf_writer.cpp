@@ -19,7 +19,7 @@ static_assert(std::endian::native == std::endian::little,
 
 namespace {
 
-/// One dataset to be.
+/// A dataset to be written.
 struct Dataset {
     Hdf5Type type = Hdf5Type::float64;
     std::size_t rows = 0;
@@ -66,7 +66,7 @@ Dataset dataset(const DataArray& data) {
     return dataset<double>(Hdf5Type::float64, Column<double>::over(std::span{reals}, data.components));
 }
 
-/// Int32 where the largest number fits, which halves the file.
+/// Int32 if the largest number fits, which halves the file.
 Dataset cells_dataset(const MeshColumns& mesh) {
     return mesh.points.rows() <= std::numeric_limits<std::int32_t>::max()
                ? dataset<std::int32_t>(Hdf5Type::int32, mesh.cells)
@@ -138,7 +138,7 @@ public:
     }
 
 private:
-    /// It is opened first, so it gets its name first.
+    /// Opens the data file before the XML, so that it gets its name first.
     AtomicFile& open_data(AtomicFiles& files, const std::filesystem::path& path) const {
         if (path.filename() == data_name_) {
             throw UsageError(
@@ -156,7 +156,7 @@ private:
         file_.write("</Topology>\n");
     }
 
-    /// meshio wants XML as the text of any Information: a list of what it calls field data.
+    /// meshio requires XML as the text of any Information: a list of what it calls field data.
     void write_fields() {
         if (mesh_.field_data.empty()) {
             return;
@@ -189,7 +189,8 @@ private:
         data_.write(name, data.type, data.rows, data.components, data.fill);
     }
 
-    /// A path in the HDF5 file that means nothing to it, to XML or to those who take it apart at a colon.
+    /// A unique path in the HDF5 file without characters special to HDF5, to XML, or to readers that split it
+    /// at a colon.
     std::string unique(const std::string& group, std::string name) {
         std::replace_if(
             name.begin(), name.end(),

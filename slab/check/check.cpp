@@ -16,10 +16,10 @@ namespace slabhull {
 
 namespace {
 
-/// Sum of normals, relative to the sum of their lengths, that rounding can leave.
+/// Largest sum of normals, relative to the sum of their lengths, that rounding can cause.
 constexpr double closure_tolerance = 1e-10;
 
-/// The order of the checks, and what each needs of those before it.
+/// Runs the checks in order; each may need results of those before it.
 template<int D>
 class HullCheck {
 public:
@@ -28,7 +28,7 @@ public:
 
     HullReport run() {
         report_.dimension = D;
-        give_back_freed_memory(); // that of building the hull
+        give_back_freed_memory(); // memory used to build the hull
         check_column_lengths(view_.hull, findings_);
         if (!check_indices<D>(view_.cells(), view_.points().size(), findings_)) {
             findings_.skip("all but the indices",
@@ -61,7 +61,7 @@ private:
         }
     }
 
-    /// A table of neighbours that lies in memory serves when it turns out to be right; else one is made.
+    /// Uses the given table of neighbours if it proves right, else builds one.
     ManifoldReport manifold_report() {
         const std::size_t vertices = view_.points().size();
         const std::span<const Neighbors<D>> table = view_.hull.neighbor_table;
@@ -89,7 +89,7 @@ private:
         }
     }
 
-    /// Claims that need no geometry.
+    /// Compares the claims that need no geometry.
     void compare_numbering() {
         if (view_.hull.vertex_id.given()) {
             check_vertex_ids(view_, findings_);
@@ -106,7 +106,7 @@ private:
         check_coincident<D + 1>(view_.points(), findings_);
         const bool caps = check_regions(view_, findings_);
         report_.time = view_.time;
-        if (view_.region.empty()) { // without a duration there are none
+        if (view_.region.empty()) { // a hull without duration has no regions
             view_.region.reset(view_.cells().size());
         }
         const CellSurvey<D> survey = survey_cells(view_);
@@ -194,10 +194,10 @@ private:
     HullReport report_;
     Findings findings_;
     HullView<D> view_;
-    Adjacency<D> adjacency_; ///< empty when that of the hull serves
+    Adjacency<D> adjacency_; ///< empty if the hull's own table is used
     bool confirmed_ = false; ///< the hull's table of neighbours is right
     bool manifold_ = false;
-    bool sealed_ = false; ///< every facet in two cells that agree
+    bool sealed_ = false; ///< every facet is in two cells that agree in orientation
 };
 
 } // namespace

@@ -21,7 +21,7 @@ struct PieceOfSurvey {
     std::vector<Index> inverted;
 };
 
-/// How far a normal points out of the cap that the cell is in; nothing to a cell of the side.
+/// Component of a cell's normal out of its cap; 0 for a side cell.
 template<int D>
 double out_of_cap(Region region, const Point<D + 1>& normal) {
     return region == Region::intermediate ? 0 : region == Region::initial ? -normal[D] : normal[D];

@@ -22,10 +22,10 @@ void check_length(Column<std::int64_t>& column, const char* name, std::size_t ro
     column = {};
 }
 
-/// How often cells begin or end at each time.
+/// Number of cells that begin, or end, at each time.
 using TimeCounts = std::map<double, std::size_t>;
 
-/// The cells of a layer by their first and by their last times.
+/// Numbers of a layer's cells by first time and by last time.
 using LayerTimes = std::array<TimeCounts, 2>;
 
 using Layers = std::map<std::int64_t, LayerTimes>;
@@ -38,7 +38,7 @@ void add(LayerTimes& sum, const LayerTimes& more) {
     }
 }
 
-/// What holds for the claim of a side cell; others are reported as such.
+/// Whether a side cell's claim is a layer at all; other claims are reported separately.
 bool is_side_layer(std::int64_t claimed) {
     return claimed >= 0;
 }
@@ -52,7 +52,7 @@ Layers collect_layers(const HullView<D>& view) {
         std::vector<std::int64_t> claimed(end - begin);
         view.hull.layer.fill(begin, end, claimed.data());
         Layers found;
-        std::int64_t last = -1; // mostly the next cell's, too
+        std::int64_t last = -1; // the next cell is mostly in the same layer
         LayerTimes* times = nullptr;
         for (std::size_t c = begin; c < end; ++c) {
             if (!view.in_cap(c) && is_side_layer(claimed[c - begin])) {
@@ -73,7 +73,7 @@ Layers collect_layers(const HullView<D>& view) {
     return layers;
 }
 
-/// The most frequent: cells that do not belong do not move it.
+/// The most frequent time: a few misplaced cells do not change it.
 double commonest(const TimeCounts& times) {
     return std::max_element(times.begin(), times.end(),
                             [](const auto& a, const auto& b) { return a.second < b.second; })
@@ -166,7 +166,7 @@ template<int D>
 void check_vertex_ids(const HullView<D>& view, Findings& findings) {
     const IntegerList ids = read_ids(view.hull.vertex_id);
     if (ids.empty() || (ids[0] >= 0 && ids.ascending())) {
-        return; // as they come from a march: no need to sort
+        return; // ids of a march ascend: no need to sort
     }
     std::vector<Index> order(ids.size());
     for (std::size_t v = 0; v < ids.size(); ++v) {

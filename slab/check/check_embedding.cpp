@@ -16,8 +16,7 @@ namespace slabhull {
 
 namespace {
 
-/// Crossings that are looked for, so that they can be counted; a body that moves through another has
-/// thousands.
+/// Most crossings that are searched for: a body that moves through another has thousands.
 constexpr std::size_t most_crossings = 300;
 
 template<int D>

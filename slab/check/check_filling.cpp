@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t cells_per_survey = 1 << 14;
 
-/// A facet by its vertices in ascending order, with the parity of the order that it was given in.
+/// A facet by its vertices in ascending order, with the parity of its original order.
 template<int D>
 struct SortedFacet {
     Simplex<D> vertices;
@@ -123,7 +123,7 @@ private:
         report_.boundary_facets = open_.size();
     }
 
-    /// A facet in one cell, as the cell's outward one when that is positive.
+    /// A facet of one cell only, oriented outward if that cell is positive.
     Simplex<D> outward(const FacetDefect<D + 1>& defect) const {
         const Simplex<D + 1>& cell = filling_.cells[defect.cells.front()];
         int place = 0;
@@ -134,7 +134,7 @@ private:
         return outward_facet<D + 1>(cell, place);
     }
 
-    /// With the facets that the hull has, else with those that are claimed.
+    /// Compares the boundary with the hull's cells if there is a hull, else with the claimed facets.
     void compare_boundary() {
         if (!filling_.facets.empty() && hull_ == nullptr) {
             compare_facets(filling_.facets, "the boundary");
@@ -248,7 +248,7 @@ private:
         }
     }
 
-    /// Vertices and the boundary, by their links.
+    /// Checks vertices and boundary by their links.
     void check_around() {
         if (findings_.any({Defect::repeated_vertex, Defect::overfull_facet, Defect::disoriented_facet,
                            Defect::inverted_cell, Defect::degenerate_cell, Defect::hull_facet_lost,
@@ -261,7 +261,7 @@ private:
         check_links<D>(filling_.points, filling_.cells, {open_, in_cell_}, findings_);
     }
 
-    /// The hull's vertices are the first, and attributes are those of its regions and patches.
+    /// Checks that the hull's vertices come first and that attributes follow its regions and patches.
     void compare_places() {
         const std::size_t common = std::min(hull_->points.size(), report_.vertices);
         for (const Index v :
@@ -278,7 +278,7 @@ private:
                 of_hull.begin(), of_hull.end(), facet,
                 [](const SortedFacet<D>& a, const SortedFacet<D>& b) { return a.vertices < b.vertices; });
             if (same == of_hull.end() || same->vertices != facet.vertices) {
-                return; // told already
+                return; // reported already
             }
             const FacetAttribute expected = attribute_of(*hull_, same->number);
             if (*attribute != expected) {

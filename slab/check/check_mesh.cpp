@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    /// A mesh has a boundary, and its orientation is judged by measures.
+    /// Unlike a hull, a mesh has a boundary, and its orientation is judged by measures.
     void examine_connectivity() {
         adjacency_ = build_adjacency<D>(cells_, points_.size());
         const ManifoldReport manifold =
@@ -90,7 +90,7 @@ private:
         report_folded();
     }
 
-    /// Of each cell's measure; 0 when it is degenerate.
+    /// Finds the sign of each cell's measure, 0 for a degenerate cell.
     void find_signs() {
         sign_.resize(cells_.size());
         parallel_for(cells_.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
@@ -120,7 +120,7 @@ private:
         }
     }
 
-    /// Not when one of the cells is inverted or degenerate, or they are duplicates: those are found as such.
+    /// False for inverted, degenerate or duplicate cells, which other checks report.
     bool lie_folded(Index a, Index b) const {
         const Simplex<D>& cell = cells_[a];
         return sign_[a] == report_.orientation && sign_[b] == report_.orientation &&

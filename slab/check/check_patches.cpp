@@ -14,11 +14,11 @@ namespace slabhull {
 
 namespace {
 
-/// Distinct tracks, ascending, then no_track.
+/// Distinct tracks in ascending order, padded with no_track.
 template<int D>
 using TrackSet = std::array<TrackId, D>;
 
-/// The tracks of a cell's vertices; a prism's cell has D at most. `size` receives how many there are.
+/// The tracks of a cell's vertices, at most D in a prism's cell. `size` receives their number.
 template<int D>
 TrackSet<D> tracks_of(const HullView<D>& view, std::size_t cell, std::size_t& size) {
     std::array<TrackId, D + 1> tracks{};
@@ -39,7 +39,7 @@ TrackSet<D> tracks_of(const HullView<D>& view, std::size_t cell, std::size_t& si
     return set;
 }
 
-/// What a side cell says about the facet it stands on.
+/// The patch that a side cell claims for the boundary facet that swept it.
 template<int D>
 struct PatchClaim {
     TrackSet<D> tracks;
@@ -68,7 +68,7 @@ void for_each_claim(const HullView<D>& view, std::size_t begin, std::size_t end,
     view.hull.patch.fill(begin, end, patch.data());
     for (std::size_t c = begin; c < end; ++c) {
         if (view.in_cap(c) || patch[c - begin] <= 0) {
-            continue; // a patch that is wrong by itself is reported as such
+            continue; // invalid patch numbers are reported separately
         }
         std::size_t size = 0;
         const TrackSet<D> tracks = tracks_of(view, c, size);
@@ -89,8 +89,8 @@ void sort_out(std::vector<T>& values) {
 
 constexpr std::size_t cells_per_reading = 1 << 14;
 
-/// The patches of facets, without the cells that say so: a block of cells after the other, as there are many
-/// layers over one facet.
+/// The patches of facets, without the claiming cells. Goes block by block to save memory: many layers repeat
+/// the claim for one facet.
 template<int D>
 FacetPatches<D> patches_of_facets(const HullView<D>& view) {
     constexpr std::size_t block = std::size_t{1} << 20;
@@ -100,7 +100,7 @@ FacetPatches<D> patches_of_facets(const HullView<D>& view) {
         const auto patches_of_piece = [&](std::size_t begin, std::size_t end, FacetPatches<D>& piece) {
             for_each_claim(
                 view, first + begin, first + end,
-                [&](const PatchClaim<D>& claim) { // a prism has several, one after the other
+                [&](const PatchClaim<D>& claim) { // a prism repeats its claim
                     if (const FacetPatch<D> facet{claim.tracks, claim.patch};
                         piece.empty() || piece.back() != facet) {
                         piece.push_back(facet);
@@ -118,7 +118,7 @@ FacetPatches<D> patches_of_facets(const HullView<D>& view) {
     return all;
 }
 
-/// Where facets have different patches: all claims about facets, sorted.
+/// All claims about whole facets, sorted; needed only if a facet has different patches.
 template<int D>
 std::vector<PatchClaim<D>> full_claims(const HullView<D>& view) {
     std::vector<PatchClaim<D>> claims;
@@ -152,7 +152,7 @@ void report_mismatches(std::span<const PatchClaim<D>> column, Findings& findings
     findings.other(Defect::patch_mismatch, std::move(entities), text);
 }
 
-/// The patches of the facets that each set of tracks is part of.
+/// For each proper subset of a facet's tracks, the patch of the facet.
 template<int D>
 FacetPatches<D> patches_of_parts(const FacetPatches<D>& facets) {
     FacetPatches<D> parts;
@@ -173,7 +173,7 @@ FacetPatches<D> patches_of_parts(const FacetPatches<D>& facets) {
     return parts;
 }
 
-/// Looks rulings up; remembers some that it found, as many cells in a row ask for the same few.
+/// Looks up patches of facets. Caches hits, as consecutive cells ask for the same few.
 template<int D>
 class FacetPatchFinder {
 public:
@@ -200,7 +200,7 @@ private:
     }
 
     const FacetPatches<D>& all_;
-    FacetPatches<D> seen_; ///< at first of patch 0, which nobody asks for
+    FacetPatches<D> seen_; ///< starts with patch 0, which is never looked up
 };
 
 /// Cells whose tracks are part of no facet of their patch, ascending.
@@ -264,7 +264,7 @@ std::vector<PatchCount> check_patches(const HullView<D>& view, Findings& finding
                                   view.in_cap(c) ? "in a cap" : "on the side"));
     }
     std::vector<PatchCount> counts;
-    std::map<Index, std::int64_t> unknown; // by the first cell
+    std::map<Index, std::int64_t> unknown; // patch by its first cell
     for (const auto& [number, use] : count_side_patches(view)) {
         const PatchList& patches = view.hull.patches;
         const bool known = std::any_of(patches.begin(), patches.end(),

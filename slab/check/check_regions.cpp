@@ -33,7 +33,7 @@ bool any_cell_at(const HullView<D>& view, double time) {
     });
 }
 
-/// The slab's times: those claimed when caps are there, else the first and last of the vertices.
+/// The slab's times: the claimed ones if there are caps at them, else the first and last of the vertices.
 template<int D>
 std::array<double, 2> slab_times(const HullView<D>& view, Findings& findings) {
     const std::array<double, 2> seen = time_range<D>(view.points());
@@ -59,8 +59,8 @@ std::array<double, 2> slab_times(const HullView<D>& view, Findings& findings) {
 }
 
 struct FoundRegions {
-    std::array<std::atomic<bool>, 3> any{}; ///< cell in each
-    std::vector<Index> flat;                ///< cells, in time, that are in no cap
+    std::array<std::atomic<bool>, 3> any{}; ///< whether each region has a cell
+    std::vector<Index> flat;                ///< cells at one instant that are in no cap
 };
 
 template<int D>
@@ -168,8 +168,8 @@ void report_inverted(const HullView<D>& view, std::span<const Index> inverted, F
 
 template<int D>
 void check_euler(const HullView<D>& view, const ManifoldCounts& counts, Findings& findings) {
-    // D = 3: a closed 3-manifold has 0, and that of a cap is half that of its boundary, which is compared
-    // anyway.
+    // Not for D = 3: a closed 3-manifold has characteristic 0, and a cap half that of its boundary, which is
+    // compared elsewhere.
     if constexpr (D == 2) {
         const std::int64_t initial = euler_of_cap(view, Region::initial);
         const std::int64_t terminating = euler_of_cap(view, Region::terminating);

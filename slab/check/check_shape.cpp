@@ -14,8 +14,7 @@ namespace slabhull {
 
 namespace {
 
-/// A cell whose measure is below this times its longest edge to the power D has no direction that can be
-/// relied on.
+/// A cell whose measure is below this times its longest edge to the power D has no reliable orientation.
 constexpr double degenerate = 1e-14;
 
 template<int D, int N>
@@ -29,7 +28,8 @@ double longest_edge(const std::array<Point<N>, D + 1>& corners) {
     return std::sqrt(square);
 }
 
-/// Quickly: no edge is longer than twice the longest at the first corner (5 for 4: room for rounding).
+/// A quick bound: no edge is longer than twice the longest at the first corner (5 instead of 4 allows for
+/// rounding).
 template<int D, int N>
 bool is_far_from_degenerate(double measure, const std::array<Point<N>, D + 1>& corners) {
     double square = 0;
@@ -43,7 +43,7 @@ bool is_far_from_degenerate(double measure, const std::array<Point<N>, D + 1>& c
     return measure * measure > scale;
 }
 
-/// Equal for equal points; 0.0 and -0.0 are equal.
+/// A hash of a point, the same for 0.0 and -0.0.
 template<std::size_t N>
 std::uint64_t fingerprint(const std::array<double, N>& point) {
     std::uint64_t hash = 0;
@@ -53,11 +53,11 @@ std::uint64_t fingerprint(const std::array<double, N>& point) {
     return hash ^ hash >> 32;
 }
 
-/// Bits that many threads set.
+/// Bits that threads set concurrently.
 class SharedBits {
 public:
     explicit SharedBits(std::size_t count) { words_.assign((count + 63) / 64, 0); }
-    /// Whether it was set before.
+    /// Returns whether the bit was set before.
     bool set(std::size_t bit) {
         return (word(bit).fetch_or(mask(bit), std::memory_order_relaxed) & mask(bit)) != 0;
     }
@@ -71,8 +71,8 @@ private:
     Array<std::uint64_t> words_;
 };
 
-/// Points whose fingerprints may be another's, too, ascending: an eighth besides those that are. A table of
-/// bits, eight for each point, says so for a sixth of the time that it takes to sort all fingerprints.
+/// Candidates for coincident points, ascending: all that coincide and an eighth of the others. A table of
+/// eight bits per point finds them in a sixth of the time of sorting all fingerprints.
 template<int N>
 std::vector<Index> may_coincide(std::span<const Point<N>> points) {
     constexpr std::size_t grain = 1 << 16;
@@ -97,7 +97,7 @@ std::vector<Index> may_coincide(std::span<const Point<N>> points) {
 /// Pairs of a vertex and the first one with the same coordinates, ascending.
 template<int N>
 std::vector<std::array<Index, 2>> coincident_pairs(std::span<const Point<N>> points) {
-    Array<std::pair<std::uint64_t, Index>> order; // not of the heap, which would keep its memory
+    Array<std::pair<std::uint64_t, Index>> order; // an Array: the heap would keep the memory
     for (const Index v : may_coincide<N>(points)) {
         order.emplace_back(fingerprint(points[v]), v);
     }

@@ -10,18 +10,18 @@ namespace slabhull {
 
 // Checks that hulls and spatial meshes share. N is the dimension of the points.
 
-/// False when the cells cannot be looked at any further.
+/// Checks the vertices of cells; false if the cells cannot be examined further.
 template<int D>
 bool check_indices(std::span<const Simplex<D>> cells, std::size_t vertex_count, Findings& findings);
 
-/// False when there are coordinates to which geometry does not apply.
+/// Checks coordinates; false if some are unfit for geometry.
 template<int N>
 bool check_finite(std::span<const Point<N>> points, Findings& findings);
 
 template<int N>
 void check_coincident(std::span<const Point<N>> points, Findings& findings);
 
-/// Whether a cell has no measure to speak of: below 1e-14 of its longest edge to the power D.
+/// Whether a cell's measure is below 1e-14 of its longest edge to the power D.
 template<int D, int N>
 bool is_degenerate(const std::array<Point<N>, D + 1>& corners);
 /// The same for a cell whose measure is known.
@@ -36,7 +36,7 @@ template<int D, int N>
 void check_degenerate(std::span<const Point<N>> points, std::span<const Simplex<D>> cells,
                       Findings& findings);
 
-/// Hands the findings of examine_manifold() on, those it did not keep as numbers, but for some kinds.
+/// Adds the findings of examine_manifold() and their counts, except for some kinds.
 void translate(const ManifoldReport& report, std::initializer_list<ManifoldDefect> except,
                Findings& findings);
 

@@ -20,7 +20,7 @@ struct TrackPoint {
     friend auto operator<=>(const TrackPoint&, const TrackPoint&) = default;
 };
 
-/// Calls visit(place, id) for all of a list.
+/// Calls visit(index, id) for each id of a list.
 template<class Visit>
 void each_id(const IntegerList& ids, const Visit& visit) {
     constexpr std::size_t batch = 1 << 12;
@@ -34,7 +34,7 @@ void each_id(const IntegerList& ids, const Visit& visit) {
     }
 }
 
-/// First and last track of some parts into which the tracks' range is cut, so that few are listed at once.
+/// Divides the range of tracks into parts, first and last of each, so that few are listed at once.
 std::vector<std::array<TrackId, 2>> parts_of_range(const IntegerList& tracks) {
     constexpr TrackId count = 8;
     TrackId first = std::numeric_limits<TrackId>::max();
@@ -81,7 +81,7 @@ std::vector<Entity> track_entities(TrackId track, std::span<const Index> vertice
     return entities;
 }
 
-/// `track` is the points of one, by time.
+/// Whether a track spans the slab and repeats no time. `track`: its points, by time.
 bool is_whole(std::span<const TrackPoint> track, const std::array<double, 2>& slab) {
     const auto same_time = [](const TrackPoint& a, const TrackPoint& b) { return a.time == b.time; };
     return track.front().time == slab[0] && track.back().time == slab[1] &&
@@ -99,8 +99,8 @@ void each_track(const std::vector<TrackPoint>& points, const Visit& visit) {
     }
 }
 
-/// `track` is the points of one, by time. One that never is on the side (`inside`) may begin or end in the
-/// slab: caps are meshed anew, and their vertices come and go.
+/// `track`: the points of a track, by time. A track that is never on the side (`inside`) may begin or end in
+/// the slab, as a cap meshed anew has new inner vertices.
 void report_track(std::span<const TrackPoint> track, const std::array<double, 2>& slab, bool inside,
                   Findings& findings) {
     for (std::size_t k = 1; k < track.size(); ++k) {
@@ -152,7 +152,7 @@ void report(Defect what, const BoundaryFacet<D>& facet, const char* detail, Find
     findings.vertices(what, facet.vertices, {&facet.cap_cell, 1}, detail);
 }
 
-/// Vertices of the cells for which wanted(cell) holds get `mark`.
+/// Marks the vertices of all cells for which wanted(cell) holds.
 template<int D, class Wanted>
 std::vector<std::uint8_t> mark_vertices(const HullView<D>& view, std::uint8_t mark, const Wanted& wanted) {
     std::vector<std::uint8_t> use(view.points().size(), 0);
@@ -179,7 +179,7 @@ std::vector<TrackId> boundary_tracks(const HullView<D>& view, const std::vector<
     return tracks;
 }
 
-/// Vertices inside a cap may have tracks, but not those of its boundary.
+/// Checks that boundary vertices of caps have tracks, and that no inner vertex is on one of these.
 template<int D>
 void check_cap_vertices(const HullView<D>& view, const std::vector<std::uint8_t>& use, Findings& findings) {
     std::optional<std::vector<TrackId>> of_boundary; // seldom needed
@@ -223,7 +223,7 @@ void check_tracks(const HullView<D>& view, Findings& findings) {
             }
         });
     });
-    std::vector<std::uint8_t> on_side; // of the vertices; only asked for what is not whole
+    std::vector<std::uint8_t> on_side; // by vertex; used only for tracks that are not whole
     for (const std::vector<TrackPoint>& points : faulty) {
         if (!points.empty() && on_side.empty()) {
             on_side = mark_vertices(view, 1, [&](std::size_t c) { return !view.in_cap(c); });

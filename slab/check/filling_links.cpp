@@ -20,10 +20,10 @@ namespace {
 
 constexpr std::size_t cells_per_round = 1 << 12;
 
-/// Times that a vertex's ray was met; `unsure` where it touched a facet.
+/// In place of the number of cells around a ray: the ray touched a facet.
 constexpr std::uint8_t unsure = 255;
 
-/// Sends rays until each is clear of facets, or the last try is over.
+/// Casts a ray from each vertex, and again with another aim if it touched a facet, for a few rounds.
 template<int D>
 class LinkCheck {
 public:
@@ -64,7 +64,7 @@ public:
         }
     }
 
-    /// Vertices of cells whose rays are not met once.
+    /// Used vertices whose ray is not inside exactly one cell.
     std::vector<Index> at_fault() const {
         return select(points_.size(), [&](std::size_t v) { return own_[v] != no_index && met_[v] != 1; });
     }
@@ -73,11 +73,11 @@ public:
 private:
     static constexpr int rounds = 4;
 
-    /// Rays that meet nothing left their cell by rounding.
+    /// A ray inside no cell left its own by rounding, so it is cast again.
     bool settled(std::size_t v) const { return met_[v] != unsure && met_[v] != 0; }
 
-    /// A point of the facet opposite to the vertex in its own cell, beside the boundary's facet where there
-    /// is one. Weights are without a pattern that a mesh could share.
+    /// A point of the facet opposite to the vertex in its own cell, close to the boundary facet if there is
+    /// one. Weights are irregular, so that no pattern of a mesh shares them.
     Point<D + 1> aim(Index v, int round) const {
         constexpr std::array<double, 4> beside{1e-8, 1e-6, 1e-3, 0.1};
         constexpr std::array<double, 5> usual{0.2718, 0.1618, 0.3141, 0.2236, 0.1414};
@@ -101,7 +101,7 @@ private:
         return place;
     }
 
-    /// Whether a corner of a vertex's own cell is off the boundary's facet.
+    /// Whether a corner of a vertex's own cell is the one opposite to the boundary facet.
     bool is_apex(Index v, Index corner) const {
         if (facet_[v] == no_index) {
             return false;
@@ -122,7 +122,7 @@ private:
         });
     }
 
-    /// The ray is inside a cell when its end may stand for any of the other corners.
+    /// The ray is inside a cell if replacing any other corner by the ray's end leaves the cell positive.
     void meet(std::size_t c, std::size_t j) {
         const Index v = cells_[c][j];
         auto corners = corners_of<D + 1, D + 1>(cells_[c], points_);
@@ -152,13 +152,14 @@ private:
     std::span<const Simplex<D + 1>> cells_;
     OpenFacets<D> open_;
     Array<Index> own_;   ///< the cell that each vertex's ray starts in
-    Array<Index> facet_; ///< of the boundary, beside the ray
+    Array<Index> facet_; ///< boundary facet beside the ray
     Array<std::uint8_t> met_;
     Array<Point<D + 1>> ray_;         ///< a point on each vertex's ray
-    std::vector<std::uint8_t> asked_; ///< of each vertex, whether its ray is sent; empty: all
+    std::vector<std::uint8_t> asked_; ///< whether each vertex's ray is cast in this round; empty: all
 };
 
-/// What a fault of the boundary is called in a filling. The boundary of paired cells has no open ridges.
+/// Translates a defect of the boundary into one of the filling. The boundary of paired cells has no open
+/// ridges.
 std::optional<Defect> on_boundary(ManifoldDefect what) {
     switch (what) {
     case ManifoldDefect::overfull_facet:

@@ -8,23 +8,23 @@
 
 namespace slabhull {
 
-/// A facet in one simplex, outward, and that simplex.
+/// The facets in one simplex only, outward, and that simplex of each.
 template<int D>
 struct OpenFacets {
     std::span<const Simplex<D>> facets;
     std::span<const Index> cells;
 };
 
-/// Whether the simplices at each vertex lie around it once: as a ball inside, on the boundary as a part of
-/// one that lies on one side of the boundary's facets there.
+/// Whether the star of each vertex covers its surroundings once: a whole ball at an inner vertex; at a
+/// boundary vertex, the part of a ball on one side of the boundary facets.
 ///
-/// From each vertex a ray is sent into one of its simplices, on the boundary close beside a boundary facet.
-/// It must be strictly inside no other simplex at the vertex, by exact sign. Where all simplices at an inner
-/// vertex are positive and paired across their facets, its link is mapped to the sphere of directions, and
-/// each direction is met equally often. So once for one is once for all: the map is one to one, and the link
-/// a sphere. At a vertex of the boundary the number of times changes by one across the boundary only; beside
-/// a facet once means nowhere twice if the boundary around the vertex is embedded. The link then is what the
-/// boundary, a sphere of directions, cuts off: a ball.
+/// From each vertex a ray is cast into one of its simplices; at a boundary vertex, close beside a boundary
+/// facet. By exact sign it must be inside no other simplex at the vertex. If all simplices at an inner vertex
+/// are positive and paired across their facets, its link covers every direction equally often. So one
+/// direction covered once proves all: the link is mapped one to one to the sphere of directions. At a
+/// boundary vertex, the number of covers changes only across the boundary, by one. If the boundary around the
+/// vertex is embedded, one cover beside a facet excludes two anywhere. The link is then the part of the
+/// sphere of directions that the boundary cuts off: a ball.
 ///
 /// Needs: simplices that are positive and paired. Cost: linear.
 template<int D>

@@ -10,7 +10,7 @@ namespace slabhull {
 
 namespace {
 
-/// More names than this do not help; the star of an apex may have millions.
+/// Most entities that a finding names: more do not help, and the star of an apex may have millions.
 constexpr std::size_t most_names = 16;
 
 constexpr std::array<std::string_view, defect_kinds> defect_names{

@@ -16,7 +16,7 @@
 
 namespace slabhull {
 
-/// Puts findings into words and into a result, keeping only so many of each kind.
+/// Adds findings to a result as text and entities. Counts all, keeps a limited number of each kind.
 class Findings {
 public:
     Findings(CheckResult& result, const CheckOptions& options) : result_{result}, options_{options} {}
@@ -26,16 +26,16 @@ public:
     }
     void cell(Defect what, Index cell, const std::string& detail) { cells(what, {&cell, 1}, detail); }
 
-    /// About a vertex, an edge or a facet, by its vertices, with the cells that take part.
+    /// About a vertex, an edge or a facet, given by its vertices, with the cells involved.
     void vertices(Defect what, std::span<const Index> vertices, std::span<const Index> cells,
                   const std::string& detail);
     /// About the first of `cells`.
     void cells(Defect what, std::span<const Index> cells, const std::string& detail);
     void other(Defect what, std::vector<Entity> entities, const std::string& text);
-    /// For findings that come with a count of their own.
+    /// Sets the count of findings that were counted elsewhere.
     void set_count(Defect what, std::size_t count) { result_.found[static_cast<std::size_t>(what)] = count; }
 
-    /// Notes once that a check was left out.
+    /// Notes, once per check, that it was skipped.
     void skip(const std::string& check, const std::string& reason);
 
     std::size_t count(Defect what) const { return result_.count(what); }
@@ -57,10 +57,10 @@ private:
     const CheckOptions& options_;
 };
 
-/// Numbers that select() asks for in one thread, one after the other.
+/// Numbers that one thread of select() tests at a time.
 constexpr std::size_t select_grain = 1 << 16;
 
-/// The numbers below `count` for which `bad` holds, ascending; asked in parallel.
+/// The numbers below `count` for which `bad` holds, ascending; tested in parallel.
 template<class Predicate>
 std::vector<Index> select(std::size_t count, const Predicate& bad) {
     return parallel_gather<Index>(count, select_grain,
@@ -73,7 +73,7 @@ std::vector<Index> select(std::size_t count, const Predicate& bad) {
                                   });
 }
 
-/// The rows of a column for which bad(row, values) holds, ascending; asked in parallel.
+/// The rows of a column for which bad(row, values) holds, ascending; tested in parallel.
 template<class Predicate>
 std::vector<Index> select_rows(const Column<std::int64_t>& column, const Predicate& bad) {
     constexpr std::size_t grain = 1 << 14;
@@ -97,7 +97,7 @@ inline std::vector<std::int64_t> row_of(const Column<std::int64_t>& column, std:
     return values;
 }
 
-/// Calls visit(row, values) for each row of a column, without holding more than a few of them.
+/// Calls visit(row, values) for each row of a column, with only a few rows in memory.
 template<class Visit>
 void each_row(const Column<std::int64_t>& column, const Visit& visit) {
     constexpr std::size_t batch = 1 << 14;
@@ -112,7 +112,7 @@ void each_row(const Column<std::int64_t>& column, const Visit& visit) {
     }
 }
 
-/// All of a column, for what is needed at random.
+/// All values of a column, for random access.
 template<class T>
 Array<T> read_column(const Column<std::int64_t>& column) {
     Array<T> values(column.rows());
@@ -121,7 +121,7 @@ Array<T> read_column(const Column<std::int64_t>& column) {
     return values;
 }
 
-/// All of a column of ids or tracks.
+/// All values of a column of ids or tracks.
 inline IntegerList read_ids(const Column<std::int64_t>& column) {
     IntegerList ids;
     each_row(column, [&](std::size_t, const std::int64_t* value) { ids.push_back(*value); });

@@ -17,7 +17,7 @@ class RegionList {
 public:
     static constexpr std::size_t cells_per_byte = 4;
 
-    /// All on the side.
+    /// Puts all cells on the side.
     void reset(std::size_t cells) {
         packed_.assign((cells + cells_per_byte - 1) / cells_per_byte, 0b01010101);
     }
@@ -25,7 +25,7 @@ public:
     Region operator[](std::size_t cell) const {
         return static_cast<Region>(packed_[cell / cells_per_byte] >> shift(cell) & 3u);
     }
-    /// Several threads at once must each keep to whole bytes: cells_per_byte cells.
+    /// Concurrent threads must write different bytes, of cells_per_byte cells each.
     void set(std::size_t cell, Region region) {
         std::uint8_t& four = packed_[cell / cells_per_byte];
         four = static_cast<std::uint8_t>((four & ~(3u << shift(cell))) | static_cast<unsigned>(region)
@@ -38,7 +38,7 @@ private:
     Array<std::uint8_t> packed_;
 };
 
-/// A hull under examination: what is claimed, and what was found out about it so far.
+/// A hull under examination: its claims, and the results of the checks so far.
 template<int D>
 struct HullView {
     HullColumns<D> hull;
@@ -73,7 +73,7 @@ struct BoundaryFacet {
     Index side_cell;
 };
 
-/// Those of the initial and of the terminating cap, by tracks.
+/// The boundary facets of the initial and of the terminating cap, sorted by tracks.
 template<int D>
 using BoundaryFacets = std::array<std::vector<BoundaryFacet<D>>, 2>;
 
@@ -81,27 +81,27 @@ using BoundaryFacets = std::array<std::vector<BoundaryFacet<D>>, 2>;
 // -----------------------------------------------------------------------------------------------
 
 /// Finds the slab's times and the region of each cell, and compares both with the claims.
-/// False when there are no two caps to go on with.
+/// False if a cap is missing, which later checks need.
 template<int D>
 bool check_regions(HullView<D>& view, Findings& findings);
 
-/// Reports cap cells that face the other way in time.
+/// Reports cap cells that do not face out of their cap.
 template<int D>
 void report_inverted(const HullView<D>& view, std::span<const Index> inverted, Findings& findings);
 
-/// Both caps must have one Euler characteristic, and a hull of dimension 2 twice that.
+/// Checks that both caps have the same Euler characteristic, and a hull of dimension 2 twice that.
 template<int D>
 void check_euler(const HullView<D>& view, const ManifoldCounts& counts, Findings& findings);
 
 // --- check_cells.cpp
 // ------------------------------------------------------------------------------------------------
 
-/// What one look at the corners of each cell shows.
+/// Results of one pass over the corners of all cells.
 template<int D>
 struct CellSurvey {
     std::array<Measures<D>, 3> regions;
-    std::vector<Index> degenerate; ///< is_degenerate(), but for cells that repeat a vertex
-    std::vector<Index> inverted;   ///< cells of caps that do not face out of them
+    std::vector<Index> degenerate; ///< cells that is_degenerate() holds for and that repeat no vertex
+    std::vector<Index> inverted;   ///< cap cells that do not face out of their cap
 };
 
 /// Needs: the regions. `sign` is 1, or -1 for a hull that is inside out as a whole.
@@ -111,36 +111,37 @@ CellSurvey<D> survey_cells(const HullView<D>& view, double sign = 1);
 // --- check_tracks.cpp
 // ------------------------------------------------------------------------------------------------
 
-/// Each track has one vertex at a time; one of the side leads from the slab's start to its end.
+/// Checks that each track has one vertex at a time and, on the side, leads from the slab's start to its end.
 template<int D>
 void check_tracks(const HullView<D>& view, Findings& findings);
 
-/// The facets between caps and side; their vertices have tracks, which other cap vertices have not.
+/// The facets between caps and side. Checks that their vertices have tracks and that no other cap vertex is
+/// on one of these.
 template<int D>
 BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findings);
 
-/// The terminating cap's boundary is exactly the image of the initial one's under the tracks.
+/// Checks that the terminating cap's boundary is exactly the image of the initial one's under the tracks.
 template<int D>
 void check_boundary_image(const BoundaryFacets<D>& boundary, Findings& findings);
 
 // --- check_patches.cpp
 // -----------------------------------------------------------------------------------------------
 
-/// Patch numbers against regions and the list of patches; counts the side's cells by patch.
+/// Checks patch numbers against regions and the list of patches; counts the side's cells by patch.
 template<int D>
 std::vector<PatchCount> check_patches(const HullView<D>& view, Findings& findings);
 
-/// The side over one boundary facet has one patch.
+/// Checks that the side over each boundary facet has one patch.
 template<int D>
 void check_patch_columns(const HullView<D>& view, Findings& findings);
 
 // --- check_claims.cpp
 // ------------------------------------------------------------------------------------------------
 
-/// Takes claims of a wrong shape out of the view.
+/// Reports claims of wrong length or width and removes them.
 template<int D>
 void check_column_lengths(HullColumns<D>& hull, Findings& findings);
-/// Returns the number of layers.
+/// Checks layers against times. Returns their number.
 template<int D>
 std::size_t check_layers(const HullView<D>& view, Findings& findings);
 template<int D>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t cones_per_piece = 1 << 10;
 
-/// The mean of two levels' places of some columns.
+/// The mean place of some columns on two levels.
 template<int D, std::size_t N>
 Point<D + 1> mean_of_columns(const SlabColumns<D>& columns, const Filling<D>& filling, std::size_t layer,
                              const std::array<Index, N>& corners) {
@@ -80,7 +80,7 @@ bool ConeCells<D>::meets_other_split(Index cell) const {
     return false;
 }
 
-/// Whether the wall opposite to a corner is inside and has a quadrilateral that is no staircase.
+/// Whether the wall opposite to a corner is inside and has a quadrilateral that is not a staircase.
 template<int D>
 bool ConeCells<D>::has_centre(Index cell, std::size_t corner) const {
     if (D == 2 || columns_.neighbors[cell][corner] == no_index) {
@@ -97,7 +97,7 @@ bool ConeCells<D>::has_centre(Index cell, std::size_t corner) const {
     return false;
 }
 
-/// Cells are numbered in order, so the cell across a wall may have numbered it.
+/// A wall is numbered by the first of its two cells; the second takes over the number.
 template<int D>
 void ConeCells<D>::number_walls(Cone& cone) {
     std::size_t next = 2;
@@ -215,7 +215,7 @@ void ConeCells<D>::add_staircase(std::size_t corner, PrismCone<D>& cone) const {
     for (std::size_t m = 0; m < D; ++m) {
         PrismPiece<D> piece;
         for (std::size_t i = 0; i <= D; ++i) {
-            const std::size_t k = i <= m ? i : i - 1; // of the wall's corners
+            const std::size_t k = i <= m ? i : i - 1; // corner of the wall
             const std::size_t at = k < corner ? k : k + 1;
             piece[i] = i <= m ? CellPrismPoint<D>::below(at) : CellPrismPoint<D>::above(at);
         }
@@ -223,7 +223,8 @@ void ConeCells<D>::add_staircase(std::size_t corner, PrismCone<D>& cone) const {
     }
 }
 
-/// The hull's own cells. A vertex that is neither a corner nor the centre of a quadrilateral is the wall's.
+/// Adds the hull's cells in a wall. A vertex that is neither a corner nor a quadrilateral's centre is the
+/// wall's centre.
 template<int D>
 void ConeCells<D>::add_side(std::size_t layer, Index cell, std::size_t corner, Vertices& vertex,
                             PrismCone<D>& cone) const {
@@ -243,7 +244,8 @@ void ConeCells<D>::add_side(std::size_t layer, Index cell, std::size_t corner, V
     }
 }
 
-/// A wall inside (D = 3): the cone from its centre over its facets below and above and its quadrilaterals.
+/// Adds an inner wall (D = 3): the cone from its centre over its facets below and above and its
+/// quadrilaterals.
 template<int D>
 void ConeCells<D>::add_coned_wall(std::size_t layer, Index cell, std::size_t corner,
                                   PrismCone<D>& cone) const {
@@ -264,7 +266,7 @@ void ConeCells<D>::add_coned_wall(std::size_t layer, Index cell, std::size_t cor
     }
 }
 
-/// The cone from a wall's centre over the quadrilateral above the edge between corners j < k.
+/// Adds the cone from a wall's centre over the quadrilateral above the edge between corners j < k.
 template<int D>
 void ConeCells<D>::add_quad(std::size_t layer, Index cell, std::uint8_t wall, std::size_t j, std::size_t k,
                             PrismCone<D>& cone) const {

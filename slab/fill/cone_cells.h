@@ -10,11 +10,11 @@
 
 namespace slabhull {
 
-/// The cells of the cap whose prisms are no staircases, since they meet a wall or a quadrilateral of the side
-/// that is none. Each is coned from its centre, and so is each of their walls inside that has such a
-/// quadrilateral. They are the same in every layer.
+/// The cells of the cap whose prisms are not staircases, because a wall or quadrilateral that they share with
+/// the side is not one. Each prism is coned from its centre, and so are its inner walls with such a
+/// quadrilateral. The cells are the same in every layer.
 ///
-/// A cone's pieces: the cell below, the cell above, then its walls, by the corners opposite to them.
+/// A cone's pieces: the cell below, the cell above, then the walls in the order of their opposite corners.
 template<int D>
 class ConeCells {
 public:
@@ -31,7 +31,7 @@ public:
     std::size_t wall_begin(Index cell, std::size_t corner) const {
         return cones_[cone_of_[cell]].wall_begin[corner];
     }
-    /// The cap's cell that has a simplex of a layer.
+    /// The cap's cell whose prism contains a simplex of a layer.
     Index cell_of(std::size_t simplex) const;
 
     using Vertices = std::array<Index, CellPrismPoint<D>::count>;
@@ -42,7 +42,7 @@ public:
 private:
     struct Cone {
         Index cell;
-        std::array<Index, D + 1> wall_centre; ///< its number in a layer; no_index for walls that have none
+        std::array<Index, D + 1> wall_centre; ///< number of the centre in a layer; no_index: none
         std::array<std::uint16_t, D + 2> wall_begin;
     };
 
@@ -68,8 +68,8 @@ private:
     const SlabColumns<D>& columns_;
     const SideWalls<D>& walls_;
     std::vector<Cone> cones_;
-    Array<Index> cone_of_; ///< of each cell; empty when there are none
-    Array<Index> first_;   ///< of each cell; empty when there are no cones
+    Array<Index> cone_of_; ///< cone of each cell; empty without cones
+    Array<Index> first_;   ///< first simplex of each cell; empty without cones
     std::size_t wall_centres_ = 0;
     std::size_t centres_begin_ = 0;
 };

@@ -6,8 +6,8 @@
 
 namespace slabhull {
 
-/// What a filling takes over from its hull: facets with attributes, ids and tracks of the hull's vertices.
-/// All points are there already.
+/// Copies from a hull to its filling: facets with attributes, ids and tracks of the hull's vertices. Needs
+/// the filling's points.
 template<int D>
 void describe_hull(const Hull<D>& hull, Filling<D>& filling) {
     filling.facets = hull.cells;

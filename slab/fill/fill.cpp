@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    /// Piece m of a staircase.
+    /// Places piece m of a staircase.
     void place_stair(std::size_t layer, Index cell, std::size_t m) {
         Simplex<D + 1> piece = staircase_piece<D>(columns_, layer, columns_.cells[cell], m);
         Neighbors<D + 1> across;
@@ -64,7 +64,7 @@ private:
                 across[i] = across_wall(layer, cell, corner, m < corner ? m : m - 1);
             }
         }
-        const bool even = (D - m) % 2 == 0; // over a cell whose columns are in positive order
+        const bool even = (D - m) % 2 == 0; // parity, if the cell's columns are in positive order
         put(number(layer, cell, m), piece, across, even == (columns_.odd[cell] != 0));
     }
 
@@ -96,7 +96,7 @@ private:
         return static_cast<Index>(layer * cones_.cells_per_layer() + cones_.first(cell) + piece);
     }
 
-    /// The simplex that has a cell's place on the level above `layer`, on that level's other side.
+    /// The simplex across the top of a cell's prism, in the next layer; no_index in the last layer.
     Index above(std::size_t layer, Index cell) const {
         return layer + 1 == columns_.layers() ? no_index
                                               : number(layer + 1, cell, cones_.is_cone(cell) ? 0 : D);
@@ -105,7 +105,7 @@ private:
         return layer == 0 ? no_index : number(layer - 1, cell, cones_.is_cone(cell) ? 1 : 0);
     }
 
-    /// Across piece m of the wall opposite to a corner.
+    /// The simplex across piece m of the wall opposite to a corner.
     Index across_wall(std::size_t layer, Index cell, std::size_t corner, std::size_t m) const {
         const Index other = columns_.neighbors[cell][corner];
         if (other == no_index) {
@@ -117,7 +117,7 @@ private:
                       cones_.is_cone(other) ? cones_.wall_begin(other, place) + m : piece_at_wall(m, place));
     }
 
-    /// Across piece p of a cone: below, above, or a wall's.
+    /// The simplex across piece p of a cone: below, above, or across a wall.
     Index across_piece(std::size_t layer, Index cell, std::size_t p) const {
         if (p < 2) {
             return p == 0 ? below(layer, cell) : above(layer, cell);
@@ -134,7 +134,7 @@ private:
     Filling<D>& filling_;
 };
 
-/// What is known of the hull's cells and vertices, and of those inside.
+/// Adds facets, attributes, ids and tracks: those of the hull, and the tracks of inner vertices.
 template<int D>
 void describe(const Hull<D>& hull, const SlabColumns<D>& columns, Filling<D>& filling) {
     describe_hull(hull, filling);

@@ -14,8 +14,8 @@ namespace slabhull {
 
 namespace {
 
-/// The length that a layer's duration is to count for: the mean edge of the initial cap. A power of two, so
-/// that nothing is rounded by it.
+/// The time scale by which a layer's duration counts for about the mean edge of the initial cap. A power of
+/// two, so that scaling does not round.
 double usual_time_scale(const Hull<2>& hull) {
     double edges = 0;
     for (std::size_t c = 0; c < hull.initial_cells; ++c) {
@@ -28,7 +28,7 @@ double usual_time_scale(const Hull<2>& hull) {
         std::round(std::log2(mean * static_cast<double>(hull.layers) / (hull.time[1] - hull.time[0]))));
 }
 
-/// The hull as the boundary of a domain in space, with regions and patches told apart.
+/// The hull as the surface of a domain in space, with a patch for each region and patch of the hull.
 Surface<3> scaled_surface(const Hull<2>& hull, double time_scale) {
     Surface<3> surface;
     surface.points = hull.points;

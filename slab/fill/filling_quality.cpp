@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t cells_per_ratio = 1 << 14;
 
-/// Over the edges of the initial cap's cells.
+/// The mean edge of the initial cap's cells.
 template<int D>
 double mean_edge(const Filling<D>& filling) {
     double sum = 0;

@@ -95,7 +95,7 @@ private:
         }
     }
 
-    /// The side stands by layer, then by facet of the initial cap's boundary, in prisms of equal length.
+    /// Divides the side into prisms of equal length, by layer, then by facet of the initial cap's boundary.
     void part_side() {
         std::set<double> levels{hull_.time[0], hull_.time[1]};
         for (std::size_t v = hull_.initial_points; v < hull_.terminating_points_begin(); ++v) {
@@ -120,7 +120,7 @@ private:
         read_patches();
     }
 
-    /// Each prism stands on the columns of its facet, between the levels of its layer.
+    /// Checks that each prism stands on the columns of its facet, between the levels of its layer.
     void require_prisms(const std::vector<double>& times) {
         const std::size_t facets = hull_.facet_patch.size();
         std::vector<std::array<TrackId, D>> tracks(facets);

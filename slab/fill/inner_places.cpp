@@ -20,7 +20,7 @@ public:
           cells_(hull.cells.begin(), hull.cells.begin() + static_cast<std::ptrdiff_t>(hull.initial_cells)),
           column_of_(hull.initial_points) {
         for (Simplex<D>& cell : cells_) {
-            std::swap(cell[0], cell[1]); // the hull's look back in time
+            std::swap(cell[0], cell[1]); // the hull's cells face back in time
         }
         for (Index k = 0; k < columns.count; ++k) {
             column_of_[columns.at(0, k)] = k;
@@ -69,7 +69,7 @@ private:
         return move_cap<D>(from, cells_, boundary_, targets, options);
     }
 
-    /// False when there is a level whose cells are not all positive.
+    /// Moves the initial cap to each level. False if a level has cells that are not positive.
     bool from_start() {
         bool sound = true;
         for (std::size_t level = 1; level < columns_.layers(); ++level) {
@@ -127,10 +127,10 @@ private:
 
     const SlabColumns<D>& columns_;
     Filling<D>& filling_;
-    std::vector<Array<Point<D>>> levels_; ///< places of the initial cap's vertices
+    std::vector<Array<Point<D>>> levels_; ///< by level, the places of the initial cap's vertices
     Array<Simplex<D>> cells_;
-    std::vector<Index> column_of_; ///< of the initial cap's vertices
-    std::vector<Index> boundary_;  ///< of the initial cap's vertices, those on the side
+    std::vector<Index> column_of_; ///< column of each vertex of the initial cap
+    std::vector<Index> boundary_;  ///< the initial cap's vertices on the side
 };
 
 } // namespace

@@ -6,10 +6,10 @@
 
 namespace slabhull {
 
-/// Puts the vertices inside the caps on each inner level, where move_cap() moves them: from the initial cap
-/// to each level, or, where that turns cells inside out, from level to level; what the last step then leaves
-/// to the terminating cap is spread over all, in proportion to time. Of two that are not sound the first is
-/// taken. Cost: one or two calls of move_cap() per level.
+/// Places the inner vertices of the caps on each inner level by move_cap(): from the initial cap to each
+/// level or, if that inverts cells, from level to level. In the second case, the gap left to the terminating
+/// cap is spread over all levels in proportion to time. If both ways invert cells, the first is taken. Cost:
+/// one or two calls of move_cap() per level.
 template<int D>
 void place_inside(const Hull<D>& hull, const SlabColumns<D>& columns, Filling<D>& filling);
 

@@ -32,7 +32,7 @@ public:
         constexpr int most_rounds = 30;
         constexpr int widest = 3;
         std::vector<Index> bad = not_positive(filling_);
-        int rings = 0; // of neighbours that are moved, too
+        int rings = 0; // of neighbours that are also moved
         for (int round = 0; round < most_rounds && !bad.empty(); ++round) {
             gather(bad, rings);
             bool moved = false;
@@ -55,7 +55,7 @@ private:
 
     bool is_movable(Index v) const { return v >= filling_.hull_points; }
 
-    /// Of the first cells: a unit of length.
+    /// Mean edge of the first facets, as a unit of length.
     double typical_edge() const {
         constexpr std::size_t most_cells = 1000;
         double sum = 0;
@@ -68,7 +68,7 @@ private:
         return sum / static_cast<double>(count);
     }
 
-    /// The movable vertices of some simplices and of so many rings about them, and the stars of all.
+    /// Collects the movable vertices of simplices and of some rings around them, with their stars.
     void gather(const std::vector<Index>& bad, int rings) {
         std::vector<std::uint8_t> reached(filling_.points.size(), 0);
         for (const Index c : bad) {
@@ -109,7 +109,7 @@ private:
         return v < levels_end_ ? move_within<D>(v, star) : move_within<D + 1>(v, star);
     }
 
-    /// In the first Free coordinates.
+    /// Moves a vertex in its first Free coordinates.
     template<int Free>
     bool move_within(Index v, const std::vector<Index>& star) {
         const double unit = size_of(star);
@@ -130,8 +130,8 @@ private:
         return true;
     }
 
-    /// Where all distances are positive and the least has grown or, where there is no such place, where
-    /// negative ones have grown and no other has become negative.
+    /// A place where all distances are positive and the least has grown. If there is none, one where negative
+    /// distances have grown and no other has become negative.
     template<int Free>
     static std::optional<Point<Free>> better_place(const std::vector<AffineFunction<Free>>& distances) {
         constexpr double worthwhile = 1e-6;
@@ -141,7 +141,7 @@ private:
         if (const double then = least<Free>(distances, best); then > 0 || now > 0) {
             return then > now + worthwhile ? std::optional{best} : std::nullopt;
         }
-        constexpr double kept = 0.2; // of positive ones
+        constexpr double kept = 0.2; // share of positive distances
         constexpr double weight = 1e4;
         std::vector<AffineFunction<Free>> guarded = distances;
         for (AffineFunction<Free>& function : guarded) {
@@ -186,7 +186,7 @@ private:
         return longest / 2;
     }
 
-    /// How far inside the facet opposite to it a vertex is that is displaced by x units.
+    /// Signed distance of a vertex, displaced by x units, from the facet opposite to it; positive inside.
     template<int Free>
     AffineFunction<Free> distance_to_facet(Index v, const Simplex<N>& cell, double unit) const {
         const auto place = std::find(cell.begin(), cell.end(), v) - cell.begin();
@@ -211,7 +211,7 @@ private:
     }
 
     Filling<D>& filling_;
-    Index levels_end_; ///< of vertices on levels; centres follow
+    Index levels_end_; ///< end of the vertices on levels; centres follow
     double time_scale_;
     std::vector<Index> movable_;
     std::vector<std::vector<Index>> stars_;

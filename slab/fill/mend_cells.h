@@ -13,11 +13,12 @@ namespace slabhull {
 template<int D>
 std::vector<Index> not_positive(const Filling<D>& filling);
 
-/// Moves vertices off the hull where simplices are not positive: centres of cones in space and time, vertices
-/// inside on the instant of their level. Each goes where the least distance to the facets of its star that it
-/// sees is largest, which is a linear program; where that is positive, all simplices of the star are. It
-/// moves only if that distance grows. Vertices near by are moved, too, where those of the simplices at fault
-/// are not enough. One after the other, in rounds that end when all is positive or nothing helps.
+/// Makes simplices positive by moving vertices that are not on the hull: centres of cones in space and time,
+/// other inner vertices within the instant of their level. A linear program finds the place with the largest
+/// least distance to the opposite facets of the star; if that is positive, so are all simplices of the star.
+/// A vertex moves only if that distance grows. Nearby vertices move, too, if those of the simplices at fault
+/// are not enough. Vertices move one after the other, in rounds that end when all simplices are positive or
+/// nothing helps.
 /// Cost: a pass over the filling per round, of which there are at most some thirty.
 template<int D>
 void mend_cells(const SlabColumns<D>& columns, Filling<D>& filling);

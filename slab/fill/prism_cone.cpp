@@ -25,7 +25,7 @@ Place<D> mean_of_corners(const std::array<bool, D + 1>& corner, int time) {
     return place;
 }
 
-/// Of each local point, over the unit simplex.
+/// The place of each local point, over the unit simplex.
 template<int D>
 std::array<Place<D>, CellPrismPoint<D>::count> reference_places() {
     using Local = CellPrismPoint<D>;
@@ -82,7 +82,7 @@ bool is_odd(const PrismPiece<D>& piece) {
     return determinant<D + 1>(rows) < 0;
 }
 
-/// What a piece has without its corner i, as a set of bits.
+/// The corners of a piece except corner i, as a set of bits.
 template<int D>
 std::uint32_t ridge(const PrismPiece<D>& piece, std::size_t i) {
     std::uint32_t bits = 0;

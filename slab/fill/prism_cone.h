@@ -48,7 +48,7 @@ struct PrismCone {
     /// Whether (the piece's corners, the centre) is negative, over a cell whose corners are in positive
     /// order.
     std::vector<std::uint8_t> odd;
-    /// across[p][i]: the piece that shares with piece p what it has without its corner i.
+    /// across[p][i]: the piece across the facet of piece p opposite to its corner i.
     std::vector<PrismPiece<D>> across;
 
     static constexpr std::size_t most_pieces = 128;

@@ -62,7 +62,8 @@ void SideWalls<D>::read_wall(std::size_t cell, std::size_t k) {
     }
 }
 
-/// A quadrilateral has a centre in all layers or in none, so that layers have cells alike.
+/// Checks that each quadrilateral has a centre in all layers or in none, so that all layers have the same
+/// cells.
 template<int D>
 void SideWalls<D>::require_alike() const {
     for (std::size_t k = edges_.size(); k < splits_.size(); ++k) {
@@ -106,7 +107,7 @@ void SideWalls<D>::collect_edges() {
     splits_.resize(columns_.layers() * edges_.size());
 }
 
-/// `edge` is one of the facet's.
+/// Reads the split of the quadrilateral over `edge`, an edge of the facet.
 template<int D>
 void SideWalls<D>::read_quad(std::size_t layer, Index facet, const std::array<Index, 2>& edge) {
     const std::array<Index, 2> below{columns_.at(layer, edge[0]), columns_.at(layer, edge[1])};
@@ -123,7 +124,8 @@ void SideWalls<D>::read_quad(std::size_t layer, Index facet, const std::array<In
     split.centre = rising || falling ? no_index : centre_of(layer, facet, below);
 }
 
-/// The third corner of the triangle on the outside of the wall that has the edge below.
+/// The centre of a quadrilateral: the third corner of the triangle with the bottom edge on the wall's
+/// outside.
 template<int D>
 Index SideWalls<D>::centre_of(std::size_t layer, Index facet, const std::array<Index, 2>& bottom) const {
     const Index first = first_cell(layer, facet);
@@ -132,7 +134,7 @@ Index SideWalls<D>::centre_of(std::size_t layer, Index facet, const std::array<I
         if (!has(hull_.cells[c], bottom[0]) || !has(hull_.cells[c], bottom[1])) {
             continue;
         }
-        for (std::size_t i = 0; i <= D; ++i) { // facet i is without vertex i
+        for (std::size_t i = 0; i <= D; ++i) { // facet i is opposite to vertex i
             for (const Index v : hull_.cells[c]) {
                 if (!here(hull_.neighbors[c][i]) && !has(bottom, hull_.cells[c][i]) && !has(bottom, v) &&
                     v != hull_.cells[c][i] && hull_.track_ids[v] == no_track) {

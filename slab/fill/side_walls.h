@@ -19,13 +19,13 @@ struct QuadSplit {
     std::size_t pieces() const { return centre == no_index ? 2 : 4; }
 };
 
-/// How the side of a hull is split, as the prisms inside must know it. A wall is the prism that a facet of
-/// the cap sweeps in a layer. A wall or a quadrilateral whose diagonals all rise is a staircase: it needs no
-/// telling.
+/// The split of a hull's side, which the prisms inside must match. A wall is the prism that a facet of the
+/// cap sweeps in a layer. A staircase is a wall or quadrilateral whose diagonals all rise; being the usual
+/// split, it is not stored.
 template<int D>
 class SideWalls {
 public:
-    /// Throws GeometryError for a side that is not what a hull's must be.
+    /// Throws GeometryError for a side that is not split as a hull's must be.
     SideWalls(const Hull<D>& hull, const SlabColumns<D>& columns);
 
     /// Whether all walls are staircases in every layer.
@@ -40,8 +40,8 @@ public:
     std::size_t cells_per_wall() const { return hull_.cells_per_prism; }
     const Hull<D>& hull() const { return hull_; }
 
-    /// The number of the quadrilateral over the edge between columns a < b, when it is on the side and no
-    /// staircase in some layer; else no_index. D = 3: for D = 2, a quadrilateral is a wall.
+    /// The number of the quadrilateral over the edge between columns a < b if it is on the side and, in some
+    /// layer, not a staircase; else no_index. D = 3: for D = 2, a quadrilateral is a wall.
     Index quad(Index a, Index b) const;
     const QuadSplit& split(std::size_t layer, Index quad) const {
         return splits_[layer * edges_.size() + quad];
@@ -58,8 +58,8 @@ private:
     const Hull<D>& hull_;
     const SlabColumns<D>& columns_;
     Array<std::uint8_t> staircase_;
-    std::vector<std::pair<Index, Facet<D>>> others_; ///< swept facets that are no staircases, their columns
-    std::vector<std::array<Index, 2>> edges_;        ///< of quadrilaterals, ascending
+    std::vector<std::pair<Index, Facet<D>>> others_; ///< swept facets not staircases, their columns
+    std::vector<std::array<Index, 2>> edges_;        ///< edges below quadrilaterals, ascending
     std::vector<QuadSplit> splits_;                  ///< by layer, then as edges_
 };
 

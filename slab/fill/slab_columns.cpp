@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    /// The vertices on inner levels, and the times of all levels.
+    /// Finds the vertices on inner levels and the times of all levels.
     void find_levels() {
         between_ = by_track(hull_, hull_.initial_points, hull_.terminating_points_begin(), false);
         std::vector<double>& times = columns_.times;
@@ -181,7 +181,7 @@ private:
         }
     }
 
-    /// Vertices inside on inner levels come after the hull's.
+    /// Numbers the inner vertices on inner levels, after the hull's.
     void number_inside() {
         auto next = static_cast<Index>(hull_.points.size());
         for (std::size_t level = 1; level < columns_.layers(); ++level) {
@@ -244,7 +244,7 @@ private:
         return result;
     }
 
-    /// Each cell must be in both caps, in any order.
+    /// Checks that both caps have the same cells, in any order.
     void compare_caps() const {
         const std::size_t begin = hull_.terminating_begin();
         std::vector<Index> lost; // cells whose partner of the same number differs
@@ -296,9 +296,9 @@ private:
     const Hull<D>& hull_;
     Filling<D>& filling_;
     SlabColumns<D> columns_;
-    std::vector<OnTrack> first_;   ///< of the initial cap
-    std::vector<OnTrack> between_; ///< on inner levels of the side
-    std::vector<Index> column_of_; ///< of the hull's vertices in caps
+    std::vector<OnTrack> first_;   ///< vertices of the initial cap, by track
+    std::vector<OnTrack> between_; ///< vertices on the side's inner levels
+    std::vector<Index> column_of_; ///< column of each of the hull's cap vertices
 };
 
 } // namespace

@@ -5,7 +5,7 @@
 
 namespace slabhull {
 
-/// The corners of a cell but the one at `place`.
+/// The corners of a cell without the one at `place`.
 template<int D>
 Facet<D> without(const Simplex<D>& cell, std::size_t place) {
     Facet<D> facet{};

@@ -41,8 +41,8 @@ CapMesh<D> renumbered(const SpatialMesh<D>& cap, std::span<const Point<D>> point
     return mesh;
 }
 
-/// From level to level, and more exactly: what turns far in small steps keeps better cells, and the smallest
-/// cells near a body go along with it.
+/// Moves the cap from level to level and more exactly: small steps keep better cells under large turns, and
+/// the smallest cells near a body follow it.
 template<int D>
 MovedCap<D> moved_by_levels(const SpatialMesh<D>& initial, const Sweep<D>& sweep) {
     CapMotionOptions options;

@@ -9,20 +9,20 @@ namespace slabhull {
 /// A terminating cap made by moving the initial one: same cells, inner vertices led by the boundary.
 template<int D>
 struct ReusedCap {
-    CapMesh<D> mesh; ///< swept vertices first, as a mesher gives them; empty when it is not good enough
+    CapMesh<D> mesh;           ///< swept vertices first, as a mesher gives them; empty if not good enough
     double smallest_angle = 0; ///< degrees; 0 when a cell is inverted
 
     bool good() const { return !mesh.cells.empty(); }
 };
 
-/// `angle` is the least that its smallest angle must have. The cap is moved in one step or, where that leaves
-/// a smaller angle, more exactly and from level to level. Cost: that of move_cap(), some two or three times
-/// that per layer in the second case.
+/// `angle` is the required smallest angle. The cap is moved in one step or, if that leaves a smaller angle,
+/// more exactly and from level to level. Cost: that of move_cap(), some two or three times that per layer in
+/// the second case.
 template<int D>
 ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle);
 
-/// Tracks for all vertices of a cap that is moved: its own, and new ones for those inside that have none.
-/// These follow its largest; ids, of which a cap that is meshed anew makes its tracks, are larger in any
+/// Tracks for all vertices of a cap to be moved: its own, and new ones for inner vertices without a track.
+/// The new ones follow its largest. A cap that is meshed anew takes ids as tracks, which are larger in any
 /// march.
 template<int D>
 Array<TrackId> tracks_throughout(const SpatialMesh<D>& cap);

@@ -63,7 +63,7 @@ Facet<D> ascending_facet(Facet<D> facet) {
     return facet;
 }
 
-/// Things at fault, by the user's numbers.
+/// Entities at fault, by the user's numbers.
 class Culprits {
 public:
     Culprits(const char* kind, const std::vector<std::int64_t>& numbers) : kind_{kind}, numbers_{numbers} {}
@@ -226,7 +226,7 @@ private:
 
     using FacetByVertices = std::pair<Facet<D>, std::size_t>; ///< sorted vertices, place in the input
 
-    /// The input's facets, to look them up; of equal ones, the first comes first.
+    /// The input's facets sorted for look-up; equal ones in input order.
     std::vector<FacetByVertices> facets_by_vertices() const {
         std::vector<FacetByVertices> facets;
         facets.reserve(input_.facets.size());
@@ -283,7 +283,7 @@ private:
         }
     }
 
-    /// Of facets that do not bound the domain, those inside it are counted, others refused.
+    /// Collects input facets inside the domain; refuses others that do not bound it.
     void find_inner(const std::vector<FacetByVertices>& facets) {
         if (facets.empty()) {
             return;
@@ -335,7 +335,7 @@ private:
         }
     }
 
-    /// That of the patch called so, else the one after the last.
+    /// The number of an existing patch with the name of the rest, else the one after the last.
     static PatchNumber number_of_rest(const std::map<PatchNumber, std::string>& names) {
         const auto called = std::find_if(names.begin(), names.end(),
                                          [](const auto& each) { return each.second == rest_name; });

@@ -36,7 +36,7 @@ CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const 
     return mesh;
 }
 
-/// How many layers would do where `fit` says that too few were given; nothing when none will.
+/// A sufficient number of layers if `fit` says that too few were given; empty if none is found.
 template<int D>
 std::optional<std::size_t> enough_layers(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
                                          const std::vector<double>& times, const SlabSettings<D>& settings,
@@ -55,11 +55,11 @@ std::optional<std::size_t> enough_layers(const Boundary<D>& boundary, const Spat
     }
 }
 
-/// What the hull takes in memory for each simplex of the side.
+/// Memory of the hull per simplex of the side.
 template<int D>
 constexpr double bytes_per_simplex = D == 3 ? 39 : 36;
 
-/// Throws LimitError, with the figures, where the side would be more than indices or memory can hold.
+/// Throws LimitError, with the figures, if the side is too large for indices or memory.
 template<int D>
 void require_attainable_side(const Boundary<D>& boundary, std::size_t layers, Split split) {
     const double simplices = side_simplex_count(boundary.facets().size(), layers, split);
@@ -102,7 +102,7 @@ Sweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std:
     return std::move(swept.sweep);
 }
 
-/// Where caps are moved, all their vertices are on tracks, so that a hull alone tells which became which.
+/// Puts all vertices of a moved cap on tracks, so that the hull alone tells which vertices correspond.
 template<int D>
 void track_inside(CapToStitch<D>& initial, const Sweep<D>& sweep, const Slab<D>& slab,
                   SpatialMesh<D>& terminating) {

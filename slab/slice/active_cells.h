@@ -13,8 +13,8 @@
 
 namespace slabhull {
 
-/// The cells that may meet a time, for one time after the other; cap cells, which last no time, are not
-/// among them.
+/// The cells that may meet a time, for one time after the other. Cap cells, which have no duration, are left
+/// out.
 template<int D>
 class ActiveCells {
 public:
@@ -27,7 +27,7 @@ public:
         each_lasting_cell([&](std::size_t first, Index cell) { starting_[next[first]++] = cell; });
     }
 
-    /// Those at time `k`, which must follow the one asked for before; ascending.
+    /// The cells at time `k`, ascending. `k` must be one after that of the call before.
     std::span<const Index> at(std::size_t k) {
         std::erase_if(active_, [&](Index cell) { return span_of(cell)[1] < times_[k] - tolerance_; });
         const auto old = static_cast<std::ptrdiff_t>(active_.size());
@@ -61,7 +61,7 @@ private:
     const HullColumns<D>& hull_;
     std::span<const double> times_;
     double tolerance_;
-    std::vector<std::size_t> begin_; ///< in starting_, of each time
+    std::vector<std::size_t> begin_; ///< where each time begins in starting_
     Array<Index> starting_;          ///< cells by the first time that they meet, ascending for each
     std::vector<Index> active_;
 };

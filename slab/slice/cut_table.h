@@ -15,13 +15,13 @@ namespace slabhull {
 // the grid of these points triangulate the product (Eilenberg and Zilber, American Journal of Mathematics 75,
 // 1953): a segment for D = 2; a triangle, or a quadrilateral in two triangles, for D = 3.
 
-/// The point where a level crosses an edge of a cell, by the places of the edge's ends in the cell.
+/// The point where a level crosses an edge of a cell, by the local numbers of the edge's ends.
 struct CutCorner {
     std::uint8_t lower = 0;
     std::uint8_t upper = 0;
 };
 
-/// What a level cuts out of a D-simplex: simplices of dimension D - 1.
+/// The section of a D-simplex at a level: simplices of dimension D - 1.
 template<int D>
 struct CellCut {
     static constexpr std::size_t most = D == 3 ? 2 : 1;
@@ -34,7 +34,7 @@ namespace cut_detail {
 template<int D>
 using Matrix = std::array<std::array<int, D + 1>, D + 1>;
 
-/// Leibniz's formula.
+/// Determinant by Leibniz's formula.
 template<int D>
 constexpr int determinant(const Matrix<D>& rows) {
     std::array<std::size_t, D + 1> column{};
@@ -65,7 +65,7 @@ constexpr int orientation(const std::array<CutCorner, D>& facet) {
     return determinant<D>(rows);
 }
 
-/// Bit i of `upper` tells whether vertex i is above.
+/// The section by the vertices above the level: bit i of `upper` for vertex i.
 template<int D>
 constexpr CellCut<D> cut_of(unsigned upper) {
     std::array<std::uint8_t, D + 1> below{};
@@ -108,8 +108,8 @@ constexpr std::array<CellCut<D>, 1u << (D + 1)> make_table() {
 
 } // namespace cut_detail
 
-/// By the set of vertices above the level, bit i for vertex i of a hull's cell. Facets are outward from the
-/// domain, as those of Surface<D>.
+/// Sections by the set of vertices above the level, bit i for vertex i of a hull's cell. Facets are outward
+/// from the domain, as those of Surface<D>.
 template<int D>
 inline constexpr auto cut_table = cut_detail::make_table<D>();
 

@@ -35,8 +35,8 @@ struct Level {
     bool at(double t) const { return t >= time - tolerance && t <= time + tolerance; }
 };
 
-/// Where a level crosses an edge of the hull: from the vertex below to the one above. A vertex at the level
-/// is both ends. Compared by vertices: this is what makes a point of a section one point.
+/// The point where a level crosses an edge of the hull, given by the vertices below and above. A vertex at
+/// the level is both ends. Comparison by vertices makes cells share the points of a section.
 struct CutPoint {
     Index lower = no_index;
     Index upper = no_index;
@@ -48,7 +48,7 @@ struct CutFacet {
     std::array<CutPoint, D> corners;
     Index cell;
 
-    /// To a facet of less dimension: cut points of edges at a vertex at the level are that vertex.
+    /// Whether the facet has lost dimension: cut points of edges at a vertex at the level are that vertex.
     bool collapsed() const {
         for (std::size_t i = 0; i < D; ++i) {
             for (std::size_t j = 0; j < i; ++j) {
@@ -169,7 +169,7 @@ private:
         }
     }
 
-    /// The adjacency of the section, or an error that tells where it is not closed.
+    /// Finds the section's adjacency; throws an error that tells where the section is not closed.
     void close(Section<D>& section) const {
         auto adjacency = build_adjacency<D - 1>(section.surface.facets, section.surface.points.size());
         if (!adjacency.defects.empty()) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t cells_per_piece = 1 << 15;
 
-/// Turned so that the smallest vertex comes first: the same for every writing of an oriented facet.
+/// The facet rotated so that the smallest vertex comes first: a unique form of an oriented facet.
 template<int D>
 Facet<D> canonical(Facet<D> facet) {
     if constexpr (D == 3) {
@@ -63,7 +63,7 @@ private:
     std::span<const Facet<D>> facets_;
     int shift_;
     Array<Index> first_;
-    Array<Index> next_; ///< with the same hash
+    Array<Index> next_; ///< next facet with the same hash
 };
 
 [[noreturn]] void refuse(const std::string& what) {

@@ -12,7 +12,7 @@ struct CellFacet {
     std::uint8_t place = 0;
 };
 
-/// Where each of a mesh's boundary facets is in its cells.
+/// The cell, and the facet of that cell, of each boundary facet of a mesh.
 /// Throws GeometryError when the boundary facets are not exactly the cells' facets without a neighbour,
 /// orientation included. Cost: linear.
 template<int D>

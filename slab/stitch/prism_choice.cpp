@@ -70,7 +70,7 @@ private:
         return layer * (graph_.quads - graph_.centred) + graph_.quad[facet][q] - graph_.centred;
     }
 
-    /// Of each free diagonal: by the facet that owns it.
+    /// Chooses each free diagonal, at the facet that owns it.
     void judge_shapes() {
         against_id_.resize(facts_.sweep.layers() * (graph_.quads - graph_.centred));
         each_prism(facts_.sweep.layers(), [&](std::size_t layer, std::size_t facet) {

@@ -10,7 +10,7 @@
 
 namespace slabhull {
 
-/// Which template of the split each prism takes.
+/// The template of the split that each prism takes.
 class PrismChoice {
 public:
     PrismChoice() = default;
@@ -28,8 +28,8 @@ private:
     Array<std::uint8_t> number_;
 };
 
-/// What decides diagonals: the tracks order the columns of vertices the same way on every level and in every
-/// slab, the hull's points give the shape.
+/// The data that decide diagonals. Tracks order the columns of vertices the same way on every level and in
+/// every slab; the hull's points give the shape.
 template<int D>
 struct DiagonalFacts {
     const Sweep<D>& sweep;

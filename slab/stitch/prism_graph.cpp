@@ -42,7 +42,7 @@ void number_quads(const SplitRecipe& recipe, PrismGraph<2>& graph) {
     graph.centred = recipe.shared == SplitRecipe::Carries::centre ? graph.quads : 0;
 }
 
-/// D = 3: those with a centre come before all others, both in the order of the boundary's edges.
+/// D = 3: quadrilaterals with a centre come first; either kind is in the order of the boundary's edges.
 void number_quads(const SplitRecipe& recipe, PrismGraph<3>& graph) {
     const HalfedgeMesh& mesh = graph.boundary.mesh();
     const Array<Index> partner =

@@ -10,8 +10,8 @@
 
 namespace slabhull {
 
-/// How the prisms of one layer hang together, the same in every layer: the dual graph of the swept boundary,
-/// and numbers for the quadrilaterals over its edges. What is said of a facet holds for the prisms over it.
+/// The adjacency of the prisms of one layer, the same in every layer: the dual graph of the swept boundary,
+/// and numbers for the quadrilaterals over its edges. Data of a facet hold for all prisms over it.
 template<int D>
 struct PrismGraph {
     /// A lateral face as the prism across sees it.
@@ -32,7 +32,7 @@ struct PrismGraph {
     /// The facet across lateral face i.
     Index across(std::size_t facet, std::size_t i) const { return boundary.neighbors()[facet][i]; }
     bool is_centred(std::size_t facet, std::size_t q) const { return quad[facet][q] < centred; }
-    /// Of the two facets beside a quadrilateral, the first counts as the one that has it.
+    /// Whether a facet is the first of the two beside a quadrilateral, which owns it.
     bool owns(std::size_t facet, std::size_t q) const { return D == 2 || boundary.owns(facet, q); }
 };
 

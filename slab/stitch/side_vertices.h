@@ -9,8 +9,8 @@
 namespace slabhull {
 
 /// Numbers of the hull's vertices: those of the initial cap; then, layer by layer, the vertices of the level
-/// below the layer (but the first), the centres of quadrilaterals, those of prisms; then the terminating
-/// cap's, the swept ones first.
+/// below the layer (except the first level), the centres of quadrilaterals, and those of prisms; then the
+/// terminating cap's, the swept ones first.
 template<int D>
 class SideVertices {
 public:
@@ -21,7 +21,7 @@ public:
           prism_centres_{recipe.apex == SplitRecipe::Apex::prism_centre ? graph.facets() : 0} {}
 
     std::size_t begin() const { return begin_; }
-    /// One past the side's; the terminating cap's first.
+    /// One past the side's vertices: the first of the terminating cap.
     std::size_t end() const {
         return begin_ + sweep_.layers() * (face_centres_ + prism_centres_) +
                (sweep_.layers() - 1) * boundary_;

@@ -47,9 +47,10 @@ public:
           graph_{connect_prisms<D>(sweep.boundary, recipe_)}, vertices_{initial.mesh().points.size(), sweep,
                                                                         graph_, recipe_} {}
 
-    /// The caps go first: memory of the hull is taken when it is written to, and theirs may be given back.
+    /// Places the caps first: the hull takes memory only as it is written, and that of the caps may be
+    /// released.
     Hull<D> run() {
-        give_back_freed_memory(); // that of meshing and of the sweep
+        give_back_freed_memory(); // memory used for meshing and sweep
         describe();
         const Array<CellFacet> initial_boundary = boundary_of_cap(initial_.mesh());
         const Array<CellFacet> terminating_boundary = boundary_of_cap(terminating_.mesh());
@@ -112,7 +113,7 @@ private:
             hull_.points[first_point + v] = at_time<D>(cap.mesh().points[v], t);
         });
         cap.release(&SpatialMesh<D>::points);
-        const bool looks_back = first_cell == 0; // in time, so that its cells turn over
+        const bool looks_back = first_cell == 0; // the cap faces back in time: cells are reversed
         place_rows(cap.mesh().cells, hull_.cells, first_cell, first_vertex, looks_back);
         cap.release(&SpatialMesh<D>::cells);
         // Across boundary facets the neighbours stay unset: see join_cap().
@@ -217,7 +218,8 @@ private:
         return static_cast<Index>(first_cell(layer, facet) + template_at(layer, facet).cell_at[slot]);
     }
 
-    /// The hull's cells by what PrismTemplate::across says of a prism's facets. Caps stay unset.
+    /// The hull's cells that the values of PrismTemplate::across stand for in one prism. Those in caps stay
+    /// unset.
     std::array<Index, Template::outside + Template::slots> reached_from(std::size_t layer,
                                                                         std::size_t facet) const {
         std::array<Index, Template::outside + Template::slots> cell;

@@ -23,7 +23,7 @@ double extent_of(std::span<const Point<D>> points) {
     return largest;
 }
 
-/// Vertices whose motions take them further apart than this, in extents, disagree.
+/// Motions that take a vertex to places further apart than this, in extents, disagree.
 constexpr double agreement = 1e-9;
 
 constexpr std::size_t most_listed = 8;
@@ -74,13 +74,13 @@ void BoundaryMover<D>::make_groups() {
 
 template<int D>
 void BoundaryMover<D>::make_creases() {
-    creases_.push_back({}); // of no patch
+    creases_.push_back({}); // of vertices without a surface
     std::vector<std::size_t> crease_at(sweep_.boundary.vertex_count(), 0);
     for (const auto& [patch, moving] : motions_) {
         if (moving.surface == nullptr) {
             continue;
         }
-        std::map<std::size_t, std::size_t> with_this; // the crease of one patch more
+        std::map<std::size_t, std::size_t> with_this; // by old crease: the one with this patch added
         for (const Index v : sweep_.boundary.vertices_of({patch})) {
             const auto [found, fresh] = with_this.try_emplace(crease_at[v], creases_.size());
             if (fresh) {
@@ -152,8 +152,8 @@ std::vector<TrackId> BoundaryMover<D>::tracks_of(std::span<const Index> vertices
     return tracks;
 }
 
-/// Vertices of several groups must have come to the same place; the first group's is taken. Stretching
-/// patches have no say.
+/// Checks that groups take shared vertices to the same place; the first group's is kept. Stretching patches
+/// are not compared.
 template<int D>
 Array<Point<D>> BoundaryMover<D>::joined(const Array<Point<D>>& before, double to) const {
     Array<Point<D>> places = before;
@@ -260,7 +260,7 @@ void BoundaryMover<D>::require_room(const Crease& crease, std::span<const double
     }
 }
 
-/// Where a projection surface lies; that of a patch that stretches stands still.
+/// The placement of a projection surface; it stands still if its patch stretches.
 template<int D>
 AffineMap<D> BoundaryMover<D>::placement(PatchNumber patch, double to) const {
     const MotionPointer<D>& motion = motions_.at(patch).motion;

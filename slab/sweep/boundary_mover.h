@@ -14,8 +14,8 @@
 namespace slabhull {
 
 /// Takes the boundary of a domain from one time to another: step 3 of the method for all patches together.
-/// Field motions are integrated, nodal ones evaluated, stretching patches follow them, and at last vertices
-/// are put back on the surfaces of their patches.
+/// Field motions are integrated, nodal ones evaluated, stretching patches follow them; finally vertices are
+/// projected onto the surfaces of their patches.
 template<int D>
 class BoundaryMover {
 public:
@@ -45,7 +45,7 @@ public:
         std::vector<Point<D>> places{};         ///< of those vertices
     };
     const std::vector<MotionGroup>& groups() const { return groups_; }
-    /// The substeps that a part of a layer has, one at least.
+    /// Number of substeps for a part of a layer, at least one.
     int substeps_of(double part) const {
         return std::max(1, static_cast<int>(std::ceil(part * options_.substeps - 1e-6)));
     }
@@ -57,7 +57,7 @@ public:
     const std::map<PatchNumber, ProjectionReport>& projected() const { return projected_; }
 
 private:
-    /// Vertices that are to be put on the surfaces of the same patches.
+    /// Vertices that are projected onto the surfaces of the same patches.
     struct Crease {
         std::vector<PatchNumber> patches; ///< ascending; more than one where they meet
         std::vector<Index> vertices;

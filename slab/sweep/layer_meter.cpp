@@ -18,11 +18,11 @@ constexpr int samples_of_layer = 8;
 constexpr int samples_of_slab = 32;
 constexpr std::size_t most_rows = 1000;
 
-/// Where defects are looked at, in parts of the time between two samples: the golden section, which no period
-/// that the samples miss comes near.
+/// Where defects are evaluated, as a fraction of the time between two samples: the golden section, which
+/// stays clear of every period that the samples miss.
 constexpr double probe_at = 0.381966;
-/// What a defect makes of the path, in products of itself and the time between samples: the integral of an
-/// error that vanishes at both ends.
+/// Error of the path as a multiple of defect times sample interval: the integral of an error that vanishes at
+/// both ends.
 constexpr double defect_weight = 0.25;
 
 /// A cubic's place and velocity at `s` in [0, 1].
@@ -45,7 +45,7 @@ Cubic<D> hermite(const Point<D>& x0, const Point<D>& v0, const Point<D>& x1, con
     return at;
 }
 
-/// Orthonormal: the facet's edges, made so one after the other, and its normal.
+/// An orthonormal frame of a facet: its edges by Gram-Schmidt, and its normal.
 template<int D>
 std::array<Point<D>, D> frame_of(const Facet<D>& facet, const Array<Point<D>>& places) {
     std::array<Point<D>, D> frame{};
@@ -65,8 +65,7 @@ std::array<Point<D>, D> frame_of(const Facet<D>& facet, const Array<Point<D>>& p
     return frame;
 }
 
-/// The cosine of the angle by which a rotation turns that takes one frame to another: its trace is
-/// D - 2 + 2 cos.
+/// Cosine of the angle of the rotation from one frame to another, whose trace is D - 2 + 2 cos.
 template<int D>
 double cosine_between(const std::array<Point<D>, D>& a, const std::array<Point<D>, D>& b) {
     double trace = 0;
@@ -137,7 +136,7 @@ LayerMeter<D>::LayerMeter(BoundaryMover<D>& mover, const Sweep<D>& sweep, const 
     }
 }
 
-/// For each vertex the least of its patches', in edges.
+/// The allowed deviation of each vertex, in edges: the least of its patches.
 template<int D>
 std::vector<double> LayerMeter<D>::allowed_deviations(double tolerance, double edges_across) const {
     std::vector<double> allowed(boundary_.vertex_count(), tolerance);
@@ -177,7 +176,7 @@ std::vector<double> LayerMeter<D>::rows_within(const std::vector<Group>& groups,
     return looked_at;
 }
 
-/// After the layer's start, up to its end.
+/// The sample times of a layer, without its start, with its end.
 template<int D>
 std::vector<double> LayerMeter<D>::sample_times(double from, double to) const {
     const double duration = to - from;
@@ -319,7 +318,7 @@ template<int D>
 void LayerMeter<D>::note(Worst& worst, Index vertex, double distance) const {
     const double known = std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance;
     const double in_edges = known > 0 ? known / local_[vertex] : 0;
-    const double growth = std::sqrt(in_edges / allowed_[vertex]); // chords are of order two
+    const double growth = std::sqrt(in_edges / allowed_[vertex]); // chord error is of order two
     worst.deviation = std::max(worst.deviation, in_edges);
     if (growth > worst.growth) {
         worst.growth = growth;

@@ -10,8 +10,8 @@
 namespace slabhull {
 
 /// Measures how far trajectories leave their chords in the layers of a slab, and how far facets turn.
-/// Between two samples a trajectory is the cubic with the velocities at both. How much the cubic's own
-/// velocity misses the motion's in between, its defect, bounds its error: Enright, "Continuous numerical
+/// Between two samples a trajectory is the cubic with the velocities at both. The cubic's defect, the
+/// difference between its own velocity and the motion's, bounds its error: Enright, "Continuous numerical
 /// methods for ODEs with defect control", J. Comput. Appl. Math. 125 (2000).
 template<int D>
 class LayerMeter {
@@ -21,10 +21,10 @@ public:
     LayerMeter(BoundaryMover<D>& mover, const Sweep<D>& sweep, const LayerOptions& options,
                std::size_t layers, double begin, double end);
 
-    /// A layer in which the motions take vertices from `start` to `end`.
+    /// Measures a layer in which the motions take vertices from `start` to `end`.
     void measure(const Array<Point<D>>& start, const Array<Point<D>>& end, double from, double to);
 
-    /// Over all layers so far.
+    /// The fit over all layers so far.
     const LayerFit& fit() const { return fit_; }
 
 private:
@@ -37,13 +37,13 @@ private:
         double to;
         Point<D> on_chord(Index vertex, double time) const;
     };
-    /// The places of all vertices and, by group, the velocities of its vertices where it is a field.
+    /// The places of all vertices and, for groups moved by a field, the velocities of their vertices.
     struct Sample {
         double time;
         Array<Point<D>> places;
         std::vector<std::vector<Point<D>>> velocities;
     };
-    /// What may be said of some of the vertices or facets.
+    /// Largest values over some of the vertices or facets.
     struct Worst {
         double deviation = 0;
         double turn = 0;
@@ -69,9 +69,9 @@ private:
     BoundaryMover<D>& mover_;
     const Boundary<D>& boundary_;
     const LayerOptions& options_;
-    int samples_;               ///< of a layer, at least
-    std::vector<double> rows_;  ///< of tables, within the slab
-    std::vector<Index> moving_; ///< facets that do not stand still
+    int samples_;               ///< least number in a layer
+    std::vector<double> rows_;  ///< times of tables' rows within the slab
+    std::vector<Index> moving_; ///< facets that move
     std::vector<double> allowed_;
     std::vector<double> edges_; ///< mean at each vertex, at the layer's start ...
     std::vector<double> local_; ///< ... and the shorter of that and the one at its end

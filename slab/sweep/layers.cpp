@@ -16,11 +16,11 @@ namespace slabhull {
 
 namespace {
 
-/// Up to here, an error may be one of too few layers.
+/// Up to this number of layers, an error may come from too few layers.
 constexpr int last_doubt = 64;
-/// Layers are multiplied by no more at a time: a path that is hardly resolved says little about what would.
+/// Largest factor between two tries: a poorly resolved path says little about the number needed.
 constexpr double most_growth = 8;
-/// A sweep that needs so many times more layers is given up at once.
+/// A sweep that needs this many times more layers is abandoned at once.
 constexpr double hopeless = 2;
 
 template<int D>
@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    /// Nothing when there was an error that more layers may cure.
+    /// A sweep with so many layers; empty after an error that more layers may cure.
     std::optional<MeasuredSweep<D>> attempt(int layers) const {
         try {
             return task_.run(even_levels(time_[0], time_[1], static_cast<std::size_t>(layers)), false);

@@ -36,8 +36,8 @@ std::optional<GeometryError> fault_of(const Boundary<D>& boundary, const Surface
     }
 }
 
-/// Crossing facets of two patches, told by the first of them and those that it crosses; or the facets of a
-/// patch that have collapsed, as partners of the first.
+/// Crossing facets of two patches: the first one, and as partners those that it crosses. Or collapsed facets
+/// of one patch: the first one, and the others as partners.
 template<int D>
 struct PatchFault {
     Index facet;
@@ -45,7 +45,7 @@ struct PatchFault {
     Point<D> near;
 };
 
-/// The patch of lower number, the other one (or the same), and whether it is about collapsed facets.
+/// The patch of lower number, the other one (or the same), and whether facets have collapsed.
 using FaultKey = std::tuple<PatchNumber, PatchNumber, bool>;
 
 template<int D>

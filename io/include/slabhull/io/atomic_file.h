@@ -17,10 +17,10 @@ namespace slabhull::io {
 class BlockWriter;
 
 /// A file that appears under its name complete or not at all: bytes go to a temporary file beside it, which
-/// commit() syncs to disk and renames. Without commit() the temporary file is removed and whatever stood
-/// under the name stays. A symbolic link is followed, permissions are those of a new file. All failures are
-/// OutputErrors naming the path; what is written waits in blocks (24 MiB at most), so the failure of one
-/// write() may be told by a later one, at the latest by finish().
+/// commit() syncs to disk and renames. Without commit() the temporary file is removed and an existing file
+/// stays. Symbolic links are followed; permissions are those of a new file. All failures are OutputErrors
+/// naming the path. Up to 24 MiB are buffered, so the failure of a write() may be thrown by a later one, at
+/// the latest by finish().
 class AtomicFile {
 public:
     explicit AtomicFile(const std::filesystem::path& path);
@@ -30,21 +30,19 @@ public:
 
     void write(const void* bytes, std::size_t size);
     void write(std::string_view text) { write(text.data(), text.size()); }
-    /// Place for bytes that are to be made where they leave from, at least one; advance() by as many as are
-    /// made.
+    /// Buffer space, at least a byte, for writing bytes in place; call advance() with their number.
     std::span<char> room();
     void advance(std::size_t size);
-    /// Syncs to disk, for a commit() that then only renames. Nothing may be written after it.
+    /// Syncs to disk, so that commit() only has to rename. Nothing may be written after it.
     void finish();
-    /// Gives the file its name, for good: the folder is synced, too.
+    /// Gives the file its name, durably: the folder is synced, too.
     void commit();
-    /// Where the file will stand.
+    /// The folder of the final file.
     std::filesystem::path folder() const { return target_.parent_path(); }
     const std::filesystem::path& target() const { return target_; }
-    /// Where its bytes stand meanwhile, for libraries that write to a name. The checksum misses what they
-    /// write.
+    /// The temporary file, for libraries that write to a path. The checksum does not include what they write.
     const std::filesystem::path& temporary() const { return temporary_; }
-    /// Sums up what is written from now on.
+    /// Starts a checksum of all that is written from now on.
     void keep_checksum() { checksum_.emplace(); }
     std::uint32_t checksum() const { return checksum_ ? checksum_->value() : 0; }
 
@@ -53,23 +51,24 @@ private:
     void check_blocks() const;
 
     std::filesystem::path path_;      ///< as the caller names it
-    std::filesystem::path target_;    ///< where it points
+    std::filesystem::path target_;    ///< `path_` with links followed
     std::filesystem::path temporary_; ///< empty once committed
     int descriptor_ = -1;
     std::unique_ptr<BlockWriter> blocks_;
     std::optional<Checksum> checksum_;
 };
 
-/// Files that get their names together: what can fail has been done for all of them before the first does.
+/// Files that get their names together: all that is likely to fail is done for all of them before the first
+/// rename.
 class AtomicFiles {
 public:
-    /// Begins a further one; the reference stays good. Throws OutputError, also for a path that is among
-    /// them.
+    /// Opens another file; the reference stays valid. Throws OutputError, also for a path that is open
+    /// already.
     AtomicFile& open(const std::filesystem::path& path);
-    /// Syncs all that are open so far to disk. Nothing may be written to them after it.
+    /// Syncs all files opened so far to disk. Nothing may be written to them after it.
     void finish();
     void commit();
-    /// In the order in which they were opened.
+    /// The paths in the order of opening.
     const std::vector<std::filesystem::path>& paths() const { return paths_; }
 
 private:
@@ -77,10 +76,10 @@ private:
     std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 
-/// Makes a folder and those above it, where they are missing. Throws OutputError.
+/// Makes a folder and those above it, if they are missing. Throws OutputError.
 void make_folder(const std::filesystem::path& folder);
 
-/// Removes the temporary files that processes left in a folder which were killed while writing there.
+/// Removes the temporary files that killed processes left in a folder.
 void remove_stale_parts(const std::filesystem::path& folder);
 
 } // namespace slabhull::io

@@ -17,7 +17,7 @@ private:
     std::uint32_t value_ = 0;
 };
 
-/// That of a whole file. Throws InputError when it cannot be read.
+/// The checksum of a whole file. Throws InputError if it cannot be read.
 std::uint32_t checksum_of(const std::filesystem::path& path);
 
 } // namespace slabhull::io

@@ -19,10 +19,10 @@ struct WriteOptions {
     std::string encoding; ///< one of WriteVariants::encodings
     std::string version;  ///< one of WriteVariants::versions
     bool four_dimensional = false;
-    std::size_t pieces = 0; ///< number of files, where WriteVariants::pieces; 0: the mesh is not cut
+    std::size_t pieces = 0; ///< number of files, if WriteVariants::pieces; 0: one file
 };
 
-/// What the rows of a data array belong to; `field`: to the whole mesh.
+/// What the rows of a data array belong to; `field`: the whole mesh.
 enum class ArrayAssociation { points, cells, field };
 
 /// What a format can store besides points and the cells of one dimension.
@@ -30,7 +30,7 @@ struct FormatFeatures {
     int min_dimension = 1; ///< of the cells
     int max_dimension = 3;
     std::optional<int> min_lower_dimension{}; ///< of simplices beside the cells; none: cells only
-    bool only_facets = false;                 ///< of lower simplices, only those of the dimension below
+    bool only_facets = false;                 ///< lower simplices only of the dimension below
     bool groups = false;                      ///< numbered groups of cells
     bool group_names = true;
     bool ungrouped_cells = true; ///< a cell may be in no group
@@ -38,12 +38,12 @@ struct FormatFeatures {
     bool cell_data = false;
     bool field_data = false;
     bool wide_integers = true;    ///< integers above 2^53
-    bool any_components = true;   ///< else 1 per array; 3 and 9 of reals, too
+    bool any_components = true;   ///< else 1 per array; reals also 3 and 9
     bool one_based_tags = false;  ///< arrays of cell numbers hold element tags, which count from 1
     bool double_precision = true; ///< of coordinates
     bool shared_points = true;    ///< else each cell repeats its points; a reader joins equal ones
 
-    /// Whether an array of numbers is stored, for formats where the flags above do not tell.
+    /// Whether an array of numbers is stored, for formats where the flags above do not suffice.
     using StoresArray = bool (*)(const Soup& soup, ArrayAssociation association, const DataArray& array,
                                  const WriteOptions& options);
     StoresArray stores_array = nullptr;
@@ -58,7 +58,7 @@ struct WriteVariants {
     bool pieces_default_only = false; ///< pieces only in the default encoding and version
 };
 
-/// Reads a file, with options where the format has some.
+/// Reads a file, with options if the format has some.
 class FormatReader {
 public:
     using Plain = Soup (*)(const std::filesystem::path& path);
@@ -87,7 +87,7 @@ struct Format {
     std::string_view name;                    ///< as users type it: "msh"
     std::string_view title;                   ///< as messages call it: "MSH"
     std::vector<std::string_view> extensions; ///< in lower case, with the dot
-    std::vector<std::string_view> signatures; ///< one of them starts a file; <this stands soon after
+    std::vector<std::string_view> signatures; ///< a file starts with one of them; <this is near the start
     FormatReader read{};                      ///< throws FormatLeftOut unless `built`
     Write write = nullptr;                    ///< throws FormatLeftOut unless `built`
     FormatFeatures features{};
@@ -100,8 +100,8 @@ std::span<const Format> formats();
 /// The formats that this build was configured without.
 std::span<const Format> formats_left_out();
 
-/// The format of that name or, failing that, of that extension (in any case), whether this build has it or
-/// not; nullptr: no such format.
+/// The format with a name or else an extension (in upper or lower case), whether or not this build has it;
+/// nullptr: none.
 const Format* format_named(std::string_view name);
 const Format* format_of_extension(const std::filesystem::path& path);
 /// The format whose signature the file starts with; nullptr: none. Throws InputError.
@@ -118,13 +118,13 @@ void require_supported(const Format& format, const WriteOptions& options, const 
 VtuEncoding vtu_encoding(const WriteOptions& options);
 MshOptions msh_options(const WriteOptions& options);
 
-/// What the format cannot store of a soup, each in a few words: "point data t, vertex_id".
+/// The parts of a soup that the format cannot store, each in a few words: "point data t, vertex_id".
 std::vector<std::string> losses(const Format& format, const Soup& soup, const WriteOptions& options = {});
 /// Whether the format stores an array.
 bool stores(const Format& format, const Soup& soup, ArrayAssociation association, const DataArray& array,
             const WriteOptions& options = {});
-/// What no writer stores of a soup, because all of them number points and cells anew from 0 or 1: other
-/// numbers of points and cells, and geometric entities where there are more of them than groups.
+/// The parts of a soup that no writer stores, as all of them number points and cells anew from 0 or 1: other
+/// numbers of points and cells, and geometric entities if there are more of them than groups.
 std::vector<std::string> lost_numbers(const Soup& soup);
 
 } // namespace slabhull::io

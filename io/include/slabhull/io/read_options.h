@@ -5,14 +5,14 @@
 
 namespace slabhull::io {
 
-/// How to read a file that says more than a soup holds, or says it in its own way.
+/// How to read a file that holds more than a soup, or holds it in its own way.
 struct ReadOptions {
-    /// Of curved simplices in MSH, VTU, PVTU, legacy VTK, XDMF (there of one kind in a file), TetGen and
-    /// Medit the corners are taken, with a remark, and points that are no corner left out; false: they are
-    /// refused.
+    /// Reads only the corners of curved simplices in MSH, VTU, PVTU, legacy VTK, XDMF (there of one kind in a
+    /// file), TetGen and Medit. Points that are not corners are left out, with a remark. false: curved
+    /// simplices are refused.
     bool linear = false;
-    /// In VTU, PVTU, legacy VTK and XDMF: the array of integers over the cells that says the group of each;
-    /// empty: of cells of several dimensions `gmsh:physical`, `medit:ref` or `patch`, the first there is.
+    /// In VTU, PVTU, legacy VTK and XDMF: the array of integers over the cells with the group of each. Empty:
+    /// if cells have several dimensions, the first that exists of `gmsh:physical`, `medit:ref` and `patch`.
     std::string patch_array;
 };
 

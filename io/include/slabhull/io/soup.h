@@ -41,7 +41,7 @@ struct SimplexBlock {
     std::int64_t tag(std::size_t i) const { return tags.empty() ? static_cast<std::int64_t>(i) : tags[i]; }
 };
 
-/// What a mesh file says: points and simplices, nothing derived, nothing mended.
+/// The content of a mesh file: points and simplices, with nothing derived or repaired.
 struct Soup {
     std::string path;
     Array<Point<3>> points;                ///< always three coordinates
@@ -51,8 +51,7 @@ struct Soup {
     std::vector<DataArray> point_data;
     std::vector<DataArray> cell_data; ///< rows go with the simplices of top_dimension()
     std::vector<DataArray> field_data;
-    /// What the reader did beyond taking the file as it is, or passed over; for a user to read, with the
-    /// path.
+    /// What the reader changed or ignored; for a user to read, with the path.
     std::vector<std::string> remarks;
 
     std::int64_t point_tag(std::size_t i) const {
@@ -74,7 +73,7 @@ struct DataColumn {
     std::variant<Column<double>, Column<std::int64_t>> values;
 };
 
-/// Something to be written: columns, so that no second copy of a mesh is made.
+/// A mesh to be written, as columns, so that it is not copied.
 struct MeshColumns {
     int dimension = 3;          ///< of the simplices: 1, 2 or 3
     Column<double> points;      ///< 3 components
@@ -83,8 +82,8 @@ struct MeshColumns {
     std::vector<DataColumn> cell_data;
     std::vector<DataArray> field_data;
 
-    /// Blocks of consecutive cells for formats with physical groups: each is one group. Empty: one without a
-    /// name.
+    /// Blocks of consecutive cells, each a group, for formats with physical groups. Empty: one group without
+    /// a name.
     struct Group {
         std::size_t begin = 0;
         std::size_t end = 0;
@@ -99,12 +98,12 @@ struct MeshColumns {
         Column<std::int64_t> cells; ///< dimension + 1 components, from 0
         std::vector<Group> groups;
     };
-    std::vector<Part> lower; ///< by descending dimension; most formats have no place for them
+    std::vector<Part> lower; ///< by descending dimension; most formats do not store them
 };
 
-/// A soup as something to be written, a view of its arrays: it must outlive the columns. Only field data are
-/// copied. The cells are those of top_dimension(); each run of cells with one physical group is a group,
-/// groups without cells are listed as well. Texts over points or cells are left out.
+/// A soup as a mesh to be written: a view of its arrays, which must outlive the columns. Only field data are
+/// copied. The cells are those of top_dimension(). Each run of cells with one physical group is a group;
+/// groups without cells are also listed. Texts over points or cells are left out.
 MeshColumns columns_of(const Soup& soup);
 
 } // namespace slabhull::io

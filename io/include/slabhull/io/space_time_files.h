@@ -14,7 +14,7 @@
 
 namespace slabhull::io {
 
-/// Something to be written: columns, so that no second copy is made.
+/// A space-time mesh to be written, as columns, so that it is not copied.
 struct SpaceTimeColumns {
     int dimension = 4;                    ///< of the simplices and of the points: 3 or 4
     Column<double> points;                ///< `dimension` components
@@ -22,7 +22,7 @@ struct SpaceTimeColumns {
     Column<std::int64_t> neighbors;       ///< dimension + 1 components; -1 across the boundary
     Column<std::int64_t> facets;          ///< of the boundary: `dimension` components
     Column<std::int64_t> facet_attribute; ///< positive
-    /// cell * (dimension + 1) + place: the cell of each facet, and its vertex that the facet has not.
+    /// cell * (dimension + 1) + i for each facet: its cell, and the corner i opposite to it.
     Column<std::int64_t> facet_side;
     Column<std::int64_t> vertex_id;
     Column<std::int64_t> track_id;
@@ -30,7 +30,7 @@ struct SpaceTimeColumns {
     std::int64_t slab = 0;
 };
 
-/// What a file of a space-time mesh says; arrays that it has not are empty.
+/// The content of a file of a space-time mesh; missing arrays are empty.
 struct SpaceTimeSoup {
     std::string path;
     int dimension = 0;
@@ -56,10 +56,10 @@ void write_getfem(AtomicFile& file, const SpaceTimeColumns& mesh);
 /// and /slab, numbers from 0. Throws UsageError in a build without HDF5.
 void write_h5(AtomicFile& file, const SpaceTimeColumns& mesh);
 
-/// Whether a file is a space-time mesh as far as its start tells: HDF5, or MFEM of dimension 4.
+/// Whether a file starts like a space-time mesh: HDF5, or MFEM of dimension 4.
 bool is_space_time_file(const std::filesystem::path& path);
 /// Reads what write_h5() writes, or MFEM mesh v1.0 of simplices of dimension 3 or 4 (with any of the codes).
-/// Every index is in range, or InputError says where it is not.
+/// Every index is in range; else throws InputError naming the place.
 SpaceTimeSoup read_space_time(const std::filesystem::path& path);
 
 } // namespace slabhull::io

@@ -43,23 +43,23 @@ enum class Defect {
     degenerate_cell,    ///< measure below 1e-14 of the longest edge to the power D
     not_closed,         ///< sum of normals is not zero to rounding, though every facet is closed
     inward_orientation, ///< the enclosed measure is not positive
-    inverted_cell, ///< a cap cell facing the other way in time; in a spatial mesh, a sign other than most
-    self_crossing, ///< two cells meet elsewhere than in the face they share: check_embedding()
+    inverted_cell,      ///< a cap cell facing into its cap; in a spatial mesh, a sign other than most
+    self_crossing,      ///< two cells meet elsewhere than in the face they share: check_embedding()
     // Time and regions
     no_duration,     ///< all vertices at one time
-    wrong_slab_time, ///< no cap at the slab time that is claimed
+    wrong_slab_time, ///< no cap at a claimed time of the slab
     time_outside_slab,
     missing_cap,
     cap_not_flat,   ///< a cell claimed for a cap has vertices off the cap's time
     wrong_region,   ///< claimed for another region than its vertices' times show
-    flat_side_cell, ///< a side cell within one instant
+    flat_side_cell, ///< a side cell at one instant
     // Boundary and tracks
     untracked_boundary,      ///< a vertex where a cap meets the side has no track
     stray_track,             ///< a vertex inside a cap is on a track of the boundary
     track_repeats_time,      ///< two vertices of a track at one time
     track_incomplete,        ///< a track does not lead from the slab's start to its end
     boundary_facet_lost,     ///< the terminating cap lacks the image of a facet of the initial cap's boundary
-    boundary_facet_added,    ///< the terminating cap's boundary has a facet that is no such image
+    boundary_facet_added,    ///< the terminating cap's boundary has a facet that is not such an image
     boundary_facet_reversed, ///< the image is there, with the other orientation
     // Claims
     negative_vertex_id,
@@ -73,14 +73,14 @@ enum class Defect {
     wrong_vertex_cell, ///< the cell claimed to use a vertex does not
     // Spatial meshes only
     folded_facet,             ///< two cells of the same sign on the same side of their common facet
-    singular_boundary_ridge,  ///< boundary facets meeting there are not two (D = 3: an edge, D = 2: a vertex)
+    singular_boundary_ridge,  ///< not two boundary facets meet there (D = 3: an edge, D = 2: a vertex)
     singular_boundary_vertex, ///< boundary facets at the vertex are not one fan (D = 3)
     // Fillings only: see check_filling.h
     hull_facet_lost,     ///< no simplex of the filling has this facet of the hull
-    hull_facet_added,    ///< a facet in one simplex only that is none of the hull's
+    hull_facet_added,    ///< a facet in one simplex only that the hull does not have
     hull_facet_reversed, ///< the facet is the hull's, with the other orientation
     hull_vertex_moved,   ///< a vertex of the hull is elsewhere in the filling
-    wrong_attribute,     ///< of a facet: not that of its region and patch in the hull
+    wrong_attribute,     ///< a facet's attribute is not that of its region and patch in the hull
     volume_mismatch      ///< the simplices' volume is not the measure that their boundary encloses
 };
 inline constexpr std::size_t defect_kinds = static_cast<std::size_t>(Defect::volume_mismatch) + 1;
@@ -90,33 +90,33 @@ std::string_view defect_name(Defect what);
 
 struct Finding {
     Defect what;
-    std::vector<Entity> entities; ///< kinds "vertex", "cell", "track", "patch", "layer"; the chief one first
+    std::vector<Entity> entities; ///< kinds "vertex", "cell", "track", "patch", "layer"; the main one first
     std::string text;             ///< a line for the user
 };
 
 struct CheckOptions {
-    std::size_t betti_cells = 0;    ///< compute the Betti numbers, too, of a hull of at most so many cells
+    std::size_t betti_cells = 0;    ///< also compute Betti numbers of hulls with at most so many cells
     std::size_t most_findings = 20; ///< kept of each kind; all are counted
     /// The user's numbers of vertices and cells; empty: counted from 0.
     std::function<std::int64_t(Index)> vertex_number;
     std::function<std::int64_t(Index)> cell_number;
 };
 
-/// What a check found, and what it could not look at because of what it found.
+/// The findings of a check, and the checks that they made impossible.
 struct CheckResult {
     std::vector<Finding> findings;
     std::array<std::size_t, defect_kinds> found{}; ///< of each kind, kept or not
-    std::vector<std::string> skipped;              ///< checks left out, each with its reason
+    std::vector<std::string> skipped;              ///< checks not done, each with its reason
 
     std::size_t count(Defect what) const { return found[static_cast<std::size_t>(what)]; }
     std::size_t total() const;
     bool clean() const { return total() == 0; }
 };
 
-/// The findings as lines for a person, kind by kind, with what was left out counted.
+/// The findings as lines of text, kind by kind, with the number of those not kept.
 std::string findings_as_text(const CheckResult& result);
 
-/// A hull as a file may tell it: points and cells, and claims that need not be given.
+/// A hull as a file has it: points, cells, and optional claims.
 /// What it refers to must outlive it.
 template<int D>
 struct HullColumns {
@@ -133,7 +133,7 @@ struct HullColumns {
     PatchList patches; ///< empty: not given
     std::optional<std::array<double, 2>> time;
 
-    /// `neighbors`, where they lie in memory as a table: when it is found to be right, no other one is made.
+    /// `neighbors` as a table in memory, if there is one. If it proves right, no other is built.
     std::span<const Neighbors<D>> neighbor_table = {};
 };
 
@@ -162,10 +162,10 @@ struct HullReport : CheckResult {
     std::vector<std::size_t> betti; ///< empty unless asked for and the hull is a manifold
 };
 
-/// The whole check of a hull. It recomputes from connectivity and coordinates and only compares with the
-/// claims. Checks build on each other: where one finds the ground missing, those above it are listed as
-/// skipped. Cost: near-linear; about 5 extra bytes per cell of a sound hull with a neighbor_table, else 30
-/// (95 with Betti numbers). The same report for any number of threads.
+/// Checks a hull completely. Recomputes everything from connectivity and coordinates; claims are only
+/// compared. Checks build on each other: those whose basis is missing are listed as skipped. Cost:
+/// near-linear; about 5 extra bytes per cell of a sound hull with a neighbor_table, else 30 (95 with Betti
+/// numbers). The same report for any number of threads.
 template<int D>
 HullReport check_hull(const HullColumns<D>& hull, const CheckOptions& options = {});
 
@@ -186,7 +186,7 @@ struct MeshReport : CheckResult {
     AngleRange angles{180, 0};
 };
 
-/// The check of a spatial mesh in R^D: cells, facets and boundary.
+/// Checks a spatial mesh in R^D: cells, facets and boundary.
 template<int D>
 MeshReport check_mesh(std::span<const Point<D>> points, std::span<const Simplex<D>> cells,
                       const CheckOptions& options = {});

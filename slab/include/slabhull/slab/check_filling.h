@@ -14,8 +14,8 @@
 
 namespace slabhull {
 
-/// A filling as a file may tell it: simplices of dimension D + 1, and claims that need not be given. What it
-/// refers to must outlive it.
+/// A filling as a file has it: simplices of dimension D + 1, and optional claims. What it refers to must
+/// outlive it.
 template<int D>
 struct FillingColumns {
     std::span<const Point<D + 1>> points; ///< time last
@@ -37,8 +37,8 @@ struct FillingReport : CheckResult {
     std::size_t boundary_facets = 0;                         ///< facets in one simplex
     std::array<double, 2> time{};                            ///< of the vertices
     double volume = 0;                                       ///< of all simplices
-    double enclosed = 0;                                     ///< by the facets in one simplex
-    double smallest_volume = 0;                              ///< of a simplex, signed
+    double enclosed = 0;                                     ///< volume enclosed by the facets in one simplex
+    double smallest_volume = 0;                              ///< signed volume of a simplex
     std::map<std::int64_t, std::size_t> facets_by_attribute; ///< as claimed
 };
 
@@ -48,11 +48,11 @@ struct FillingReport : CheckResult {
 /// encloses, within 1e-12. With a hull: the boundary facets are exactly the hull's cells, with the same
 /// orientation, and the hull's vertices are the first, bit for bit.
 ///
-/// Positive simplices paired across all facets inside, with a boundary that is embedded and exactly once
-/// there, cover the slab exactly once: a point inside is covered as often as the boundary winds around it. So
-/// the filling of a hull whose check is clean and that does not cross itself has no overlap and no gap. The
-/// links of its vertices are spheres inside and balls on the hull; docs/filling.md says what is proven of
-/// them when nothing is known of the hull.
+/// Positive simplices that are paired across all inner facets, and whose boundary is embedded and occurs
+/// once, cover the slab exactly once: a point is covered as often as the boundary winds around it. So the
+/// filling of a hull whose check is clean and that does not cross itself has no overlap and no gap. The links
+/// of its vertices are spheres inside and balls on the hull; docs/filling.md says what is proven without a
+/// hull.
 ///
 /// Cost: near-linear; some 60 extra bytes per simplex. The same report for any number of threads.
 template<int D>

@@ -10,7 +10,7 @@ namespace slabhull {
 /// Mean ratios of a filling's simplices: 1 for the regular one, 0 for a flat one.
 struct FillingQuality {
     double smallest = 0;
-    double one_per_cent = 0; ///< so many of them are smaller
+    double one_per_cent = 0; ///< first percentile
     double median = 0;
     double time_scale = 1; ///< the length that a unit of time counts for
 };

@@ -27,7 +27,8 @@ Column<std::int64_t> neighbor_column(std::span<const std::array<Index, N>> neigh
             }};
 }
 
-/// value(c) for each cell c, which it is up to cell end_of(c) at least. Many times faster than one by one.
+/// A column of value(c) for each cell c, constant up to cell end_of(c) at least. Filling runs is many times
+/// faster than cell by cell.
 template<int D, class Value, class EndOf>
 Column<std::int64_t> column_by_stretches(const Hull<D>& hull, const Value& value, const EndOf& end_of) {
     return {hull.cells.size(), 1, [value, end_of](std::size_t begin, std::size_t end, std::int64_t* out) {

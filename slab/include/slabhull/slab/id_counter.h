@@ -7,7 +7,7 @@
 
 namespace slabhull {
 
-/// The persistent id that is given out next; a march holds one.
+/// The next persistent id to give out; a march holds one.
 struct IdCounter {
     PersistentId next = 0;
     PersistentId take(std::size_t count) {

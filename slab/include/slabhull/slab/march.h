@@ -10,15 +10,15 @@
 
 namespace slabhull {
 
-/// Where a march stands: all that its next slab depends on, besides the settings.
+/// The state of a march: all that its next slab depends on, except the settings.
 template<int D>
 struct MarchState {
     SpatialMesh<D> cap; ///< the next slab's initial cap
-    double time = 0;    ///< that it is at
+    double time = 0;    ///< time of `cap`
     int slab = 0;       ///< number of the next slab
     IdCounter ids;
-    /// The boundary of all caps of the march, opened where the motion starts. Series of displacements and
-    /// stretching patches refer to its places there. At present it bounds `cap`.
+    /// The boundary of all caps of the march, with its places at the motion's start, which series of
+    /// displacements and stretching patches refer to. At present it bounds `cap`.
     Boundary<D> boundary;
 };
 
@@ -31,10 +31,10 @@ MarchState<D> march_from(Domain<D> domain, double time);
 template<int D>
 MarchState<D> march_from(SpatialMesh<D> cap, double time, const IdCounter& ids);
 
-/// Slab after slab on a moving domain. A solver that predicts and corrects proposes slabs as often as it
-/// likes: nothing changes until one is accepted, and each proposal stands on the same initial cap. All
-/// proposals with the same number of layers and the same split give the same ids to the same vertices of cap,
-/// side and terminating boundary, whatever the motion.
+/// Builds slab after slab on a moving domain. A solver that predicts and corrects may propose slabs as often
+/// as it likes: all start from the same initial cap, and nothing changes until one is accepted. All proposals
+/// with the same number of layers and the same split give the same ids to the same vertices of cap, side and
+/// terminating boundary, whatever the motion.
 template<int D>
 class March {
 public:
@@ -42,29 +42,29 @@ public:
         : state_{std::move(state)}, settings_{std::move(settings)}, first_id_{first_id()} {}
 
     const MarchState<D>& state() const { return state_; }
-    /// To be corrected between proposals.
+    /// The settings, which may change between proposals.
     SlabSettings<D>& settings() { return settings_; }
 
-    /// The slab from here over the levels `times`, of which the first is the march's time. Its hull is not
+    /// Builds the next slab over the levels `times`, the first of which is the march's time. Its hull is not
     /// checked as a whole. Throws as build_slab() does; TangledBoundary says how far a slab could go.
     Slab<D> propose(std::vector<double> times, StageClock& clock) const;
     Slab<D> propose(std::vector<double> times) const;
 
-    /// As propose(), for a march that never goes back: the initial cap is given up once it is in the hull, so
+    /// As propose(), for a march that never goes back: the initial cap is released once it is in the hull, so
     /// that it is not held twice. After that the march can only accept this slab.
     Slab<D> build(std::vector<double> times, StageClock& clock);
 
-    /// Goes on to the slab's end. Throws UsageError for a slab that was not proposed from here.
+    /// Advances the march to the slab's end. Throws UsageError for a slab that was not proposed from here.
     void accept(Slab<D>&& slab);
 
-    /// Tells `progress` what goes on in propose() and build(), and stops them within a second when it returns
-    /// false: they throw Interrupted, and the march is as before.
+    /// Calls `progress` during propose() and build(). If it returns false they stop within a second: they
+    /// throw Interrupted and leave the march unchanged.
     void on_progress(Progress progress) { progress_ = progress ? std::move(progress) : goes_on; }
 
 private:
     static bool goes_on(const std::string&) { return true; }
     void require_times(const std::vector<double>& times) const;
-    /// Tells the initial cap from others; -1 for one without vertices.
+    /// Identifies the initial cap; -1 if it has no vertices.
     PersistentId first_id() const { return state_.cap.vertex_ids.empty() ? -1 : state_.cap.vertex_ids[0]; }
 
     MarchState<D> state_;

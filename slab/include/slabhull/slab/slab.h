@@ -25,33 +25,33 @@ struct SlabSettings {
     SideOptions side{D == 3 ? Split::C : Split::centre};
     CapOptions cap;
     CapReuse reuse = CapReuse::none;
-    double reuse_angle = 5; ///< degrees: a moved cap with a smaller one is meshed anew
+    double reuse_angle = 5; ///< degrees: a moved cap with a smaller angle is meshed anew
 };
 
 /// One slab: its hull, which ends with the cap that the next one starts from.
 template<int D>
 struct Slab {
     Hull<D> hull;
-    Array<Facet<D>> terminating_facets; ///< of the terminating cap's boundary, in the cap's own numbers
+    Array<Facet<D>> terminating_facets; ///< boundary of the terminating cap, in the cap's own numbers
     std::map<PatchNumber, ProjectionReport> projected;
     bool cap_moved = false; ///< the terminating cap is the initial one, moved; else meshed anew ...
-    std::optional<double> moved_angle; ///< ... where tried, the smallest angle (degrees) that moving gave
-    int cap_blocks = 1;                ///< in which it was meshed, when it was
-    LayerFit layers;                   ///< how well they follow the motion ...
-    std::optional<std::size_t> layers_enough; ///< ... and, where too few were given, how many would do
-    IdCounter next_ids;                       ///< what the next slab counts from
+    std::optional<double> moved_angle;        ///< ... its smallest angle (degrees) after moving, if tried
+    int cap_blocks = 1;                       ///< number of blocks if the cap was meshed
+    LayerFit layers;                          ///< how well they follow the motion ...
+    std::optional<std::size_t> layers_enough; ///< ... and a sufficient number if too few were given
+    IdCounter next_ids;                       ///< the next slab's new ids start here
 
-    /// A copy, made from the hull.
+    /// A copy of the terminating cap, made from the hull.
     SpatialMesh<D> terminating() const { return terminating_cap_of<D>(hull, terminating_facets); }
 };
 
-/// Builds slab `number` over the levels `times`, or from the first to the last of the two when layers follow
-/// from the motion (LayerOptions::automatic), on the initial cap, which `boundary` bounds: the seven steps
-/// of the method. The hull is not checked as a whole (check_hull() does); the boundary is, on every level,
-/// and so is the terminating cap. New ids are counted from `ids`: first the side's, then those of the
-/// terminating boundary, then those inside the cap. Throws GeometryError naming what and where: motions that
-/// disagree, a cap that cannot be meshed; TangledBoundary for a boundary that crosses itself or leaves its
-/// box. An initial cap that is given up is still there when an error is thrown.
+/// Builds slab `number` on the initial cap, which `boundary` bounds, by the seven steps of the method.
+/// `times` are the levels, or start and end if layers follow from the motion (LayerOptions::automatic). The
+/// hull is not checked as a whole (check_hull() does); the boundary is, on every level, and so is the
+/// terminating cap. New ids are counted from `ids`: first the side's, then those of the terminating boundary,
+/// then those inside the cap. Throws GeometryError naming what and where: motions that disagree, a cap that
+/// cannot be meshed; TangledBoundary for a boundary that crosses itself or leaves its box. If an error is
+/// thrown, an initial cap to be given up is still intact.
 template<int D>
 Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock);

@@ -15,16 +15,16 @@
 
 namespace slabhull {
 
-/// The boundary of the domain at one instant, cut out of a hull: where its side crosses a level of time. Caps
-/// have no part in it but their boundaries.
+/// The boundary of the domain at one instant: the section of a hull's side at a level of time. Caps
+/// contribute only their boundaries.
 template<int D>
 struct Section {
     double time = 0;
     Surface<D> surface;                ///< closed, outward from the domain, with the patches of the side
     Array<Neighbors<D - 1>> neighbors; ///< the facet across each ridge
-    Array<Index> hull_cell;            ///< that each facet is cut from
-    Array<PersistentId> vertex_ids;    ///< of the hull's vertex where the level passes through one, else -1
-    Array<TrackId> track_ids;          ///< where the level crosses a track, else no_track
+    Array<Index> hull_cell;            ///< hull cell that each facet is cut from
+    Array<PersistentId> vertex_ids;    ///< id of a hull's vertex at the level, else -1
+    Array<TrackId> track_ids;          ///< the track that the level crosses, else no_track
 };
 
 struct SliceOptions {
@@ -32,14 +32,14 @@ struct SliceOptions {
     std::function<std::int64_t(Index)> cell_number;
 };
 
-/// How long a hull lasts.
+/// The first and the last time of a hull.
 struct TimeSpan {
     double first = 0;
     double last = 0;
 
-    /// Times closer than this are one: a few units in the last place. Levels that a slab and a user compute
-    /// in two ways differ by as much, and so do the times of face and prism centres; a cut that close to a
-    /// vertex would be all slivers.
+    /// Times closer than this, a few units in the last place, count as equal. Levels computed in two ways
+    /// differ by as much, and so do times of face and prism centres; a cut so close to a vertex would be all
+    /// slivers.
     double tolerance() const;
     bool contains(double time) const { return time >= first - tolerance() && time <= last + tolerance(); }
 };
@@ -50,7 +50,7 @@ TimeSpan time_span(const HullColumns<D>& hull);
 
 /// Cuts a hull at each of the times, ascending, and hands the sections to `use`.
 ///
-/// A vertex of a section lies on an edge of the hull and is found by that edge, never by its place, so that a
+/// A vertex of a section is identified by the hull's edge that it lies on, never by coordinates, so that a
 /// closed hull has closed sections. A level that passes through vertices is the limit from above (at the
 /// hull's end: from below): cut points of the edges at such a vertex are that vertex, and facets that
 /// collapse are left out. So the section at a level of the side is exactly the boundary of that level.
@@ -82,7 +82,7 @@ struct SectionReport {
     std::size_t vertices = 0;
     std::size_t facets = 0;
     std::size_t components = 0;        ///< closed curves or surfaces
-    std::vector<PatchMeasure> patches; ///< those that are there, by number
+    std::vector<PatchMeasure> patches; ///< patches of the section, by number
     double measure = 0;                ///< of the boundary
     double enclosed = 0;               ///< area or volume of the domain
     double closure = 0;                ///< |sum of the facets' normals|

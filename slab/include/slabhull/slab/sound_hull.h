@@ -10,16 +10,16 @@
 
 namespace slabhull {
 
-/// What is known of a hull in which nothing was found.
+/// The reports on a hull without findings.
 struct SoundHull {
     HullReport report;
-    std::optional<EmbeddingSummary> embedding; ///< nothing when it was not asked for
+    std::optional<EmbeddingSummary> embedding; ///< empty if not asked for
 };
 
 /// Checks a hull that is to be written or solved on: check_hull() and, when `embedding` is wanted,
-/// check_embedding(). Throws GeometryError with the findings in words, and their cells and vertices as the
-/// entities, when there are any; `name` is what the message calls the hull, such as "the hull of slab 3".
-/// Books the stages "checking" and "embedding".
+/// check_embedding(). Throws GeometryError if there are findings: their text, with their cells and vertices
+/// as entities; `name` is what the message calls the hull, such as "the hull of slab 3". Books the stages
+/// "checking" and "embedding".
 template<int D>
 SoundHull require_sound_hull(const Hull<D>& hull, const std::string& name, bool embedding, StageClock& clock);
 

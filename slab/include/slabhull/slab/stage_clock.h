@@ -11,11 +11,11 @@
 
 namespace slabhull {
 
-// Stages that several parts of the program name.
+// Names of stages that several parts of the program share.
 inline constexpr const char* boundary_check_stage = "boundary check";
 inline constexpr const char* cap_meshing_stage = "cap meshing";
 
-/// Seconds by stage, in the order in which the stages first came.
+/// Seconds by stage, in the order of first occurrence.
 class StageClock {
 public:
     /// Books the time since the last call (or the start) on `stage`.
@@ -30,8 +30,8 @@ public:
         stages_.emplace_back(stage, passed);
     }
 
-    /// Runs a stage of the work: tells its name to those who watch (enter_stage()), then books its time.
-    /// Returns what `work` returns.
+    /// Runs a stage of the work: announces its name (enter_stage()), then books its time. Returns what `work`
+    /// returns.
     template<class Work>
     auto run(const std::string& stage, const Work& work) {
         enter_stage(stage);
@@ -46,7 +46,7 @@ public:
     }
 
     const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
-    /// Of all stages, in seconds.
+    /// Total over all stages, in seconds.
     double total() const {
         double sum = 0;
         for (const auto& stage : stages_) {

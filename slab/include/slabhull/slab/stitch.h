@@ -26,15 +26,15 @@ struct SideOptions {
     Diagonals diagonals = Diagonals::shape;
 };
 
-/// How many vertices of the side are in neither cap: those on inner levels, and the centres of the split.
+/// Number of the side's vertices in neither cap: those on inner levels, and the centres of the split.
 template<int D>
 std::size_t side_vertex_count(const Sweep<D>& sweep, Split split);
 
-/// How many simplices the side has; in floating point, since they may be more than an integer holds.
+/// Number of the side's simplices; in floating point, since it may exceed an integer's range.
 double side_simplex_count(std::size_t facets, std::size_t layers, Split split);
 
-/// A cap to be stitched into a hull. One that is given up is emptied, array by array, as soon as it is in the
-/// hull, so that it is not held twice.
+/// A cap to be stitched into a hull. If it is given up, each array is released as soon as it is in the hull,
+/// so that it is not held twice.
 template<int D>
 class CapToStitch {
 public:
@@ -42,13 +42,13 @@ public:
     CapToStitch(SpatialMesh<D>&& given_up) : mesh_{given_up}, given_up_{&given_up} {}
 
     const SpatialMesh<D>& mesh() const { return mesh_; }
-    /// Tracks of its vertices in the hull, where they are not the mesh's own.
+    /// Sets the tracks of its vertices in the hull, if not the mesh's own.
     void give_tracks(Array<TrackId> tracks) { tracks_ = std::move(tracks); }
     std::span<const TrackId> tracks() const {
         return tracks_.empty() ? std::span<const TrackId>{mesh_.track_ids}
                                : std::span<const TrackId>{tracks_};
     }
-    /// Empties an array of a cap that is given up.
+    /// Releases an array of a cap that is given up.
     template<class T>
     void release(Array<T> SpatialMesh<D>::*array) {
         if (given_up_ != nullptr) {

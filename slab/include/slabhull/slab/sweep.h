@@ -16,8 +16,8 @@
 
 namespace slabhull {
 
-/// What a patch does: it moves as a field in space says, or as is said of each track, or it stretches between
-/// its neighbours; one of the three. Its vertices are then put back on its surface, if it has one.
+/// The motion of a patch, one of three: a field in space, a motion of each track, or stretching between its
+/// neighbours. Its vertices are then projected onto its surface, if it has one.
 template<int D>
 struct MovingPatch {
     MotionPointer<D> motion;
@@ -27,7 +27,7 @@ struct MovingPatch {
     StretchPointer<D> stretch = nullptr; ///< one for all patches that stretch
 };
 
-/// The moving patches by number; a patch that is not here stands still.
+/// The moving patches by number; a patch that is not listed stands still.
 template<int D>
 using PatchMotions = std::map<PatchNumber, MovingPatch<D>>;
 
@@ -46,8 +46,8 @@ struct Sweep {
 };
 
 /// Sweeps `boundary` from its places in `cap`, which it bounds, through the levels `times`. `motion_start` is
-/// the time that projection surfaces are given at: they are placed by the motion from then to each level. A
-/// vertex shared by patches goes with all their motions, which must agree there, and is put on all their
+/// the time at which projection surfaces are given; the motion takes them from there to each level. A vertex
+/// shared by patches follows all their motions, which must agree there, and is projected onto all their
 /// surfaces. Throws GeometryError naming the patches and the vertices where motions disagree, and the
 /// vertices that projection would move by more than half of their shortest edge.
 template<int D>
