@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/hull_embedding.h"
 
+#include "core/rounds.h"
 #include "simplex_judge.h"
 #include "specimens.h"
 
@@ -106,14 +107,14 @@ private:
 };
 
 template<int D>
-void for_each_pair(std::size_t of_each, unsigned seed, const std::function<void(const Pair<D>&)>& visit) {
+void for_each_pair(int of_each, unsigned seed, const std::function<void(const Pair<D>&)>& visit) {
     for (const Family& family :
          {Family{"dense", 1}, Family{"close", 3}, Family{"far", 40}, Family{"in one instant", 3, D},
           Family{"in one wall", 3, 0}, Family{"touching along a hyperplane", 2, -1, true}}) {
         for (std::size_t shared = 0; shared <= D; ++shared) {
             CAPTURE(family.name, shared);
             Pairs<D> pairs{family, shared, seed};
-            for (std::size_t k = 0; k < of_each; ++k) {
+            for (int k = 0; k < rounds(of_each); ++k) {
                 visit(pairs.next());
             }
         }
