@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edit/soup_rows.h"
 
+#include "core/rows.h"
 #include "core/used_vertices.h"
 #include "edit/soup_cells.h"
 
@@ -10,20 +11,6 @@
 namespace slabhull::detail {
 
 namespace {
-
-template<class Values>
-void pick(Values& values, const Order& order, std::size_t width) {
-    if (values.empty()) {
-        return;
-    }
-    Values picked(order.size() * width);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        for (std::size_t k = 0; k < width; ++k) {
-            picked[i * width + k] = values[order[i] * width + k];
-        }
-    }
-    values = std::move(picked);
-}
 
 void renumber(IntegerList& values, const Array<Index>& fresh) {
     values = IntegerList::generated(values.size(), [&](std::size_t k) {
@@ -83,17 +70,17 @@ void keep_cells(io::Soup& soup, const std::array<Order, 4>& orders) {
     }
     for (std::size_t d = 0; d < orders.size(); ++d) {
         io::SimplexBlock& block = soup.simplices[d];
-        pick(block.vertices, orders[d], d + 1);
-        pick(block.physical, orders[d], 1);
-        pick(block.entity, orders[d], 1);
-        pick(block.tags, orders[d], 1);
+        keep_rows(block.vertices, orders[d], d + 1);
+        keep_rows(block.physical, orders[d]);
+        keep_rows(block.entity, orders[d]);
+        keep_rows(block.tags, orders[d]);
     }
 }
 
 void keep_points(io::Soup& soup, const Order& order) {
     const Array<Index> fresh = inverse(order, soup.points.size());
-    pick(soup.points, order, 1);
-    pick(soup.point_tags, order, 1);
+    keep_rows(soup.points, order);
+    keep_rows(soup.point_tags, order);
     pick_rows(soup.point_data, order);
     for (io::SimplexBlock& block : soup.simplices) {
         std::transform(block.vertices.begin(), block.vertices.end(), block.vertices.begin(),

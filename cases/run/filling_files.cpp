@@ -231,12 +231,7 @@ void find_neighbors(Filling<D>& filling, std::vector<FacetDefect<D + 1>>& open) 
 template<int D>
 void find_facets(const std::vector<FacetDefect<D + 1>>& open, Filling<D>& filling) {
     for (const FacetDefect<D + 1>& defect : open) {
-        const Simplex<D + 1>& cell = filling.cells[defect.cells.front()];
-        for (std::size_t i = 0; i <= D + 1; ++i) {
-            if (std::find(defect.facet.begin(), defect.facet.end(), cell[i]) == defect.facet.end()) {
-                filling.facets.push_back(outward_facet<D + 1>(cell, static_cast<int>(i)));
-            }
-        }
+        filling.facets.push_back(outward_facet<D + 1>(filling.cells[defect.cells.front()], defect.facet));
     }
 }
 
@@ -251,15 +246,12 @@ FacetAttribute attribute_by_time(const Filling<D>& filling, const Simplex<D>& fa
     return 3;
 }
 
-IntegerList ids_or_none(const Array<std::int64_t>& ids, std::size_t count) {
-    IntegerList runs;
-    for (const std::int64_t id : ids) {
-        runs.push_back(id);
+IntegerList ids_or_none(Array<std::int64_t>&& ids, std::size_t count) {
+    IntegerList list{std::move(ids)};
+    if (list.empty()) {
+        list.append_run(-1, count, 0);
     }
-    if (ids.empty()) {
-        runs.append_run(-1, count, 0);
-    }
-    return runs;
+    return list;
 }
 
 } // namespace
@@ -289,8 +281,8 @@ Filling<D> filling_to_write(io::SpaceTimeSoup& soup) {
             filling.facet_attribute.push_back(attribute_by_time(filling, facet));
         }
     }
-    filling.vertex_ids = ids_or_none(soup.vertex_id, filling.points.size());
-    filling.track_ids = ids_or_none(soup.track_id, filling.points.size());
+    filling.vertex_ids = ids_or_none(std::move(soup.vertex_id), filling.points.size());
+    filling.track_ids = ids_or_none(std::move(soup.track_id), filling.points.size());
     return filling;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/mesh/corners_only.h"
 
+#include "core/rows.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <numeric>
@@ -8,14 +10,6 @@
 namespace slabhull::io {
 
 namespace {
-
-template<class Values>
-void keep_rows(Values& values, const Array<Index>& rows) { // `rows` ascend
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        values[k] = values[rows[k]];
-    }
-    values.resize(rows.size());
-}
 
 void renumber(Soup& soup, const Array<Index>& number) {
     if (soup.point_tags.empty()) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/io/soup.h"
 
+#include "core/rows.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -15,23 +17,6 @@ const DataArray* find(const std::vector<DataArray>& arrays, const std::string& n
 }
 
 template<class Values>
-void keep(Values& values, std::span<const Index> rows, std::size_t width) {
-    Values kept;
-    kept.reserve(rows.size() * width);
-    for (const Index row : rows) {
-        for (std::size_t k = 0; k < width; ++k) {
-            kept.push_back(values[row * width + k]);
-        }
-    }
-    values = std::move(kept);
-}
-
-void keep(IntegerList& values, std::span<const Index> rows, std::size_t width) {
-    values = IntegerList::generated(
-        rows.size() * width, [&](std::size_t i) { return values[rows[i / width] * width + i % width]; });
-}
-
-template<class Values>
 void add(Values& values, const Values& more) {
     values.insert(values.end(), more.begin(), more.end());
 }
@@ -43,12 +28,8 @@ void add(IntegerList& values, const IntegerList& more) {
 } // namespace
 
 void DataArray::keep_rows(std::span<const Index> kept) {
-    const auto keep_own = [&](auto& own) {
-        if (!own.empty()) {
-            keep(own, kept, static_cast<std::size_t>(components));
-        }
-    };
-    std::visit(keep_own, values);
+    const auto width = static_cast<std::size_t>(components);
+    std::visit([&](auto& own) { slabhull::keep_rows(own, kept, width); }, values);
 }
 
 void DataArray::append(const DataArray& more) {

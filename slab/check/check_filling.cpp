@@ -116,22 +116,11 @@ private:
                 findings_.vertices(Defect::disoriented_facet, defect.facet, defect.cells,
                                    "its cells induce the same orientation on it");
             } else {
-                open_.push_back(outward(defect));
+                open_.push_back(outward_facet<D + 1>(filling_.cells[defect.cells.front()], defect.facet));
                 in_cell_.push_back(defect.cells.front());
             }
         }
         report_.boundary_facets = open_.size();
-    }
-
-    /// A facet of one cell only, oriented outward if that cell is positive.
-    Simplex<D> outward(const FacetDefect<D + 1>& defect) const {
-        const Simplex<D + 1>& cell = filling_.cells[defect.cells.front()];
-        int place = 0;
-        while (place <= D && std::find(defect.facet.begin(), defect.facet.end(),
-                                       cell[static_cast<std::size_t>(place)]) != defect.facet.end()) {
-            ++place;
-        }
-        return outward_facet<D + 1>(cell, place);
     }
 
     /// Compares the boundary with the hull's cells if there is a hull, else with the claimed facets.

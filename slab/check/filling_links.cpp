@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/check/filling_links.h"
 
+#include "core/used_vertices.h"
 #include "slab/check/check_shape.h"
 #include "slabhull/core/array.h"
 #include "slabhull/geometry/measures.h"
@@ -29,8 +30,8 @@ class LinkCheck {
 public:
     LinkCheck(std::span<const Point<D + 1>> points, std::span<const Simplex<D + 1>> cells,
               const OpenFacets<D>& open)
-        : points_{points}, cells_{cells}, own_(points.size(), no_index), facet_(points.size(), no_index),
-          met_(points.size(), unsure), ray_(points.size()) {
+        : points_{points}, cells_{cells}, open_{open}, own_(points.size(), no_index),
+          facet_(points.size(), no_index), met_(points.size(), unsure), ray_(points.size()) {
         for (std::size_t c = cells.size(); c-- > 0;) {
             for (const Index v : cells[c]) {
                 own_[v] = static_cast<Index>(c);
@@ -42,7 +43,6 @@ public:
                 facet_[v] = static_cast<Index>(f);
             }
         }
-        open_ = open;
     }
 
     void run() {
@@ -190,24 +190,15 @@ void check_links(std::span<const Point<D + 1>> points, std::span<const Simplex<D
 
 template<int D>
 void check_boundary(std::size_t vertex_count, std::span<const Simplex<D>> facets, Findings& findings) {
-    std::vector<Index> number(vertex_count, no_index); // of vertices on the boundary
-    std::vector<Index> vertex;
     Array<Simplex<D>> cells(facets.begin(), facets.end());
-    for (Simplex<D>& cell : cells) {
-        for (Index& v : cell) {
-            if (number[v] == no_index) {
-                number[v] = static_cast<Index>(vertex.size());
-                vertex.push_back(v);
-            }
-            v = number[v];
-        }
-    }
-    const Adjacency<D> adjacency = build_adjacency<D>(cells, vertex.size());
-    const ManifoldReport report = examine_manifold<D>(cells, vertex.size(), adjacency);
+    const UsedVertices used{vertex_count, cells};
+    used.renumber(cells);
+    const Adjacency<D> adjacency = build_adjacency<D>(cells, used.vertices.size());
+    const ManifoldReport report = examine_manifold<D>(cells, used.vertices.size(), adjacency);
     for (const ManifoldFinding& found : report.findings) {
         std::vector<Index> at;
         for (const Index v : found.vertices) {
-            at.push_back(vertex[v]);
+            at.push_back(used.vertices[v]);
         }
         std::sort(at.begin(), at.end());
         if (const std::optional<Defect> what = on_boundary(found.what)) {

@@ -162,11 +162,12 @@ Filling<D> fill_slab(const Hull<D>& hull, StageClock& clock) {
     CellMaker<D>{columns, cones, filling}.run();
     describe(hull, columns, filling);
     clock.book("filling");
-    if (!not_positive(filling).empty()) {
-        mend_cells(columns, filling);
-        if (const std::vector<Index> bad = not_positive(filling); !bad.empty()) {
-            refuse_cells(bad, filling, columns, cones);
-        }
+    std::vector<Index> bad = not_positive(filling);
+    if (!bad.empty()) {
+        bad = mend_cells(std::move(bad), columns, filling);
+    }
+    if (!bad.empty()) {
+        refuse_cells(bad, filling, columns, cones);
     }
     clock.book("signs");
     return filling;

@@ -1,31 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/fill/describe_hull.h"
+#include "slab/fill/layer_scale.h"
+#include "slab/fill/mend_cells.h"
 #include "slabhull/core/error.h"
-#include "slabhull/core/vector.h"
 #include "slabhull/geometry/cap_mesher.h"
-#include "slabhull/geometry/simplex_sign.h"
 #include "slabhull/slab/fill.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace slabhull {
 
 namespace {
 
-/// The time scale by which a layer's duration counts for about the mean edge of the initial cap. A power of
-/// two, so that scaling does not round.
+/// A layer lasts about the mean edge of the initial cap. A power of two, so that scaling does not round.
 double usual_time_scale(const Hull<2>& hull) {
-    double edges = 0;
-    for (std::size_t c = 0; c < hull.initial_cells; ++c) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            edges += distance(hull.points[hull.cells[c][i]], hull.points[hull.cells[c][(i + 1) % 3]]);
-        }
-    }
-    const double mean = edges / (3.0 * static_cast<double>(hull.initial_cells));
-    return std::exp2(
-        std::round(std::log2(mean * static_cast<double>(hull.layers) / (hull.time[1] - hull.time[0]))));
+    const std::span<const Simplex<2>> cap = std::span{hull.cells}.first(hull.initial_cells);
+    return std::exp2(std::round(std::log2(layer_scale<2>(cap, hull.points, hull.layers, hull.time))));
 }
 
 /// The hull as the surface of a domain in space, with a patch for each region and patch of the hull.
@@ -61,14 +55,11 @@ Filling<2> fill_unstructured(const Hull<2>& hull, StageClock& clock, const Unstr
     filling.steiner_points = filling.points.size() - hull.points.size();
     describe_hull(hull, filling);
     filling.track_ids.append_run(no_track, filling.steiner_points, 0);
-    for (std::size_t c = 0; c < filling.cells.size(); ++c) {
-        if (simplex_sign<3>(corners_of<3, 3>(filling.cells[c], filling.points)) <= 0) {
-            throw GeometryError{
-                fmt::format("rounding leaves tetrahedron {} of the filling inside out or flat "
-                            "when time is scaled back by {}; take another time scale, best a "
-                            "power of two",
-                            c, time_scale)};
-        }
+    if (const std::vector<Index> bad = not_positive(filling); !bad.empty()) {
+        throw GeometryError{
+            fmt::format("rounding leaves tetrahedron {} of the filling inside out or flat when "
+                        "time is scaled back by {}; take another time scale, best a power of two",
+                        bad.front(), time_scale)};
     }
     clock.book("signs");
     return filling;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/filling_quality.h"
 
+#include "slab/fill/layer_scale.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/vector.h"
 #include "slabhull/geometry/measures.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace slabhull {
 
@@ -14,21 +16,12 @@ namespace {
 
 constexpr std::size_t cells_per_ratio = 1 << 14;
 
-/// The mean edge of the initial cap's cells.
+/// The facets of a filling that are the cells of the initial cap.
 template<int D>
-double mean_edge(const Filling<D>& filling) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (std::size_t f = 0; f < filling.facets.size() && filling.facet_attribute[f] == 1; ++f) {
-        const auto corners = corners_of<D, D + 1>(filling.facets[f], filling.points);
-        for (std::size_t i = 0; i <= D; ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                sum += distance(corners[i], corners[j]);
-                ++count;
-            }
-        }
-    }
-    return count > 0 ? sum / static_cast<double>(count) : 1;
+std::span<const Simplex<D>> initial_facets(const Filling<D>& filling) {
+    const auto end = std::find_if(filling.facet_attribute.begin(), filling.facet_attribute.end(),
+                                  [](FacetAttribute attribute) { return attribute != 1; });
+    return std::span{filling.facets}.first(static_cast<std::size_t>(end - filling.facet_attribute.begin()));
 }
 
 template<int N>
@@ -59,8 +52,7 @@ FillingQuality filling_quality(const Filling<D>& filling, std::size_t layers) {
     if (filling.cells.empty()) {
         return quality;
     }
-    quality.time_scale =
-        mean_edge(filling) * static_cast<double>(layers) / (filling.time[1] - filling.time[0]);
+    quality.time_scale = layer_scale<D>(initial_facets(filling), filling.points, layers, filling.time);
     Array<float> ratios(filling.cells.size());
     parallel_for(ratios.size(), cells_per_ratio, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {

@@ -3,6 +3,7 @@
 
 #include "geometry/basics/largest_minimum.h"
 #include "slab/check/findings.h"
+#include "slab/fill/layer_scale.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/vector.h"
 #include "slabhull/geometry/measures.h"
@@ -13,7 +14,9 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
 namespace slabhull {
 
@@ -25,13 +28,13 @@ class CellMender {
 public:
     CellMender(const SlabColumns<D>& columns, Filling<D>& filling)
         : filling_{filling}, levels_end_{static_cast<Index>(filling.points.size() - filling.steiner_points)},
-          time_scale_{typical_edge() * static_cast<double>(columns.layers()) /
-                      (filling.time[1] - filling.time[0])} {}
+          time_scale_{layer_scale<D>(std::span{filling.facets}.first(columns.cells.size()), filling.points,
+                                     columns.layers(), filling.time)} {}
 
-    void run() {
+    /// Returns the simplices that are left.
+    std::vector<Index> run(std::vector<Index> bad) {
         constexpr int most_rounds = 30;
         constexpr int widest = 3;
-        std::vector<Index> bad = not_positive(filling_);
         int rings = 0; // of neighbours that are also moved
         for (int round = 0; round < most_rounds && !bad.empty(); ++round) {
             gather(bad, rings);
@@ -43,30 +46,18 @@ public:
             bad = not_positive(filling_);
             if (!moved || bad.size() >= before) {
                 if (rings == widest) {
-                    return;
+                    break;
                 }
                 ++rings;
             }
         }
+        return bad;
     }
 
 private:
     static constexpr std::size_t N = D + 1;
 
     bool is_movable(Index v) const { return v >= filling_.hull_points; }
-
-    /// Mean edge of the first facets, as a unit of length.
-    double typical_edge() const {
-        constexpr std::size_t most_cells = 1000;
-        double sum = 0;
-        std::size_t count = 0;
-        for (std::size_t f = 0; f < std::min(most_cells, filling_.facets.size()); ++f) {
-            const auto corners = corners_of<D, D + 1>(filling_.facets[f], filling_.points);
-            sum += distance(corners[0], corners[1]);
-            ++count;
-        }
-        return sum / static_cast<double>(count);
-    }
 
     /// Collects the movable vertices of simplices and of some rings around them, with their stars.
     void gather(const std::vector<Index>& bad, int rings) {
@@ -75,21 +66,13 @@ private:
             reach(filling_.cells[c], reached);
         }
         for (int ring = 0; ring < rings; ++ring) {
-            const std::vector<Index> touched = select(filling_.cells.size(), [&](std::size_t c) {
-                return std::any_of(filling_.cells[c].begin(), filling_.cells[c].end(),
-                                   [&](Index v) { return reached[v] != 0; });
-            });
-            for (const Index c : touched) {
+            for (const Index c : cells_at(reached)) {
                 reach(filling_.cells[c], reached);
             }
         }
         movable_ = select(reached.size(), [&](std::size_t v) { return reached[v] != 0; });
         stars_.assign(movable_.size(), {});
-        const std::vector<Index> touched = select(filling_.cells.size(), [&](std::size_t c) {
-            return std::any_of(filling_.cells[c].begin(), filling_.cells[c].end(),
-                               [&](Index v) { return reached[v] != 0; });
-        });
-        for (const Index c : touched) {
+        for (const Index c : cells_at(reached)) {
             for (const Index v : filling_.cells[c]) {
                 if (reached[v] != 0) {
                     const auto place = std::lower_bound(movable_.begin(), movable_.end(), v);
@@ -97,6 +80,13 @@ private:
                 }
             }
         }
+    }
+
+    std::vector<Index> cells_at(const std::vector<std::uint8_t>& vertices) const {
+        return select(filling_.cells.size(), [&](std::size_t c) {
+            return std::any_of(filling_.cells[c].begin(), filling_.cells[c].end(),
+                               [&](Index v) { return vertices[v] != 0; });
+        });
     }
 
     void reach(const Simplex<N>& cell, std::vector<std::uint8_t>& reached) const {
@@ -227,8 +217,8 @@ std::vector<Index> not_positive(const Filling<D>& filling) {
 }
 
 template<int D>
-void mend_cells(const SlabColumns<D>& columns, Filling<D>& filling) {
-    CellMender<D>{columns, filling}.run();
+std::vector<Index> mend_cells(std::vector<Index> bad, const SlabColumns<D>& columns, Filling<D>& filling) {
+    return CellMender<D>{columns, filling}.run(std::move(bad));
 }
 
 template<int D>
@@ -267,11 +257,11 @@ void refuse_cells(const std::vector<Index>& bad, const Filling<D>& filling, cons
 }
 
 template std::vector<Index> not_positive<2>(const Filling<2>&);
-template void mend_cells<2>(const SlabColumns<2>&, Filling<2>&);
+template std::vector<Index> mend_cells<2>(std::vector<Index>, const SlabColumns<2>&, Filling<2>&);
 template void refuse_cells<2>(const std::vector<Index>&, const Filling<2>&, const SlabColumns<2>&,
                               const ConeCells<2>&);
 template std::vector<Index> not_positive<3>(const Filling<3>&);
-template void mend_cells<3>(const SlabColumns<3>&, Filling<3>&);
+template std::vector<Index> mend_cells<3>(std::vector<Index>, const SlabColumns<3>&, Filling<3>&);
 template void refuse_cells<3>(const std::vector<Index>&, const Filling<3>&, const SlabColumns<3>&,
                               const ConeCells<3>&);
 

@@ -41,12 +41,9 @@ CapMesh<D> renumbered(const SpatialMesh<D>& cap, std::span<const Point<D>> point
     return mesh;
 }
 
-/// Moves the cap from level to level and more exactly: small steps keep better cells under large turns, and
-/// the smallest cells near a body follow it.
+/// Moves the cap from level to level: small steps keep better cells under large turns.
 template<int D>
 MovedCap<D> moved_by_levels(const SpatialMesh<D>& initial, const Sweep<D>& sweep) {
-    CapMotionOptions options;
-    options.tolerance = careful_tolerance;
     MovedCap<D> moved{initial.points, 0, true, 0};
     for (std::size_t level = 1; level <= sweep.layers() && moved.sound; ++level) {
         moved =
@@ -61,12 +58,13 @@ template<int D>
 ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle) {
     MovedCap<D> moved =
         move_cap<D>(initial.points, initial.cells, sweep.boundary.mesh_vertices(), sweep.positions.back());
-    if (!(moved.sound && moved.smallest_angle >= angle)) {
+    const auto serves = [&] { return moved.sound && moved.smallest_angle >= angle; };
+    if (!serves() && sweep.layers() > 1) {
         moved = moved_by_levels<D>(initial, sweep);
     }
     ReusedCap<D> reused;
     reused.smallest_angle = moved.sound ? moved.smallest_angle : 0;
-    if (reused.smallest_angle >= angle && moved.sound) {
+    if (serves()) {
         reused.mesh = renumbered<D>(initial, moved.points,
                                     swept_first(initial.points.size(), sweep.boundary.mesh_vertices()));
     }

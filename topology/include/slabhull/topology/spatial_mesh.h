@@ -5,6 +5,7 @@
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace slabhull {
@@ -58,6 +59,18 @@ constexpr Facet<D> outward_facet(const Simplex<D>& cell, int i) {
         facet[1] = first;
     }
     return facet;
+}
+
+/// The facet of a cell that has these vertices, in any order, in the outward orientation when the cell is
+/// positive.
+template<int D>
+constexpr Facet<D> outward_facet(const Simplex<D>& cell, const Facet<D>& vertices) {
+    int opposite = 0;
+    while (opposite < D && std::find(vertices.begin(), vertices.end(),
+                                     cell[static_cast<std::size_t>(opposite)]) != vertices.end()) {
+        ++opposite;
+    }
+    return outward_facet<D>(cell, opposite);
 }
 
 } // namespace slabhull
