@@ -2,11 +2,14 @@
 #include "commands.h"
 
 #include "mesh_formats.h"
+#include "slabhull/cases/filling_files.h"
 #include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/report.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/io/space_time_files.h"
 #include "slabhull/slab/slice.h"
+#include "slabhull/slab/slice_filling.h"
 
 #include <algorithm>
 #include <charconv>
@@ -132,12 +135,44 @@ private:
 
 /// A section that was cut, its file complete but not yet in place.
 struct Written {
-    std::string hull;
+    double time = 0;
     std::filesystem::path path;
     std::unique_ptr<io::AtomicFile> file;
-    PatchList patches;
-    SectionReport report;
+    std::string text; ///< what is told of it
+    nlohmann::ordered_json json;
 };
+
+std::string told(const SectionReport& report, const PatchList& patches) {
+    const bool plane = report.dimension == 2;
+    std::string parts;
+    for (const PatchMeasure& patch : report.patches) {
+        parts += fmt::format("{}{} {:.10g}", parts.empty() ? "" : ", ", patch_name(patches, patch.number),
+                             patch.measure);
+    }
+    return fmt::format("  {} {}, {} vertices, {} closed {}{}, |sum of normals| {:.3g}\n"
+                       "  {} {:.10g} ({}), encloses {:.10g}\n",
+                       report.facets, plane ? "edges" : "triangles", report.vertices, report.components,
+                       plane ? "curve" : "surface", report.components > 1 ? "s" : "", report.closure,
+                       plane ? "length" : "area", report.measure, parts, report.enclosed);
+}
+
+std::string told(const FillingSectionReport& report) {
+    const bool plane = report.dimension == 2;
+    return fmt::format("  {} {}, {} vertices\n  {} {:.10g}, the smallest cell {:.3g}\n", report.cells,
+                       plane ? "triangles" : "tetrahedra", report.vertices, plane ? "area" : "volume",
+                       report.measure, report.smallest_cell);
+}
+
+nlohmann::ordered_json as_json(const FillingSectionReport& report) {
+    nlohmann::ordered_json facets = nlohmann::ordered_json::object();
+    for (const auto& [attribute, count] : report.facets_by_attribute) {
+        facets[std::to_string(attribute)] = count;
+    }
+    return {{"time", report.time},
+            {"counts", {{"vertices", report.vertices}, {"cells", report.cells}}},
+            {"facets_by_attribute", facets},
+            {"measure", {{"domain", report.measure}, {"smallest_cell", report.smallest_cell}}}};
+}
 
 /// One pass over the files. No file gets its final name before all times are cut.
 class SliceRun {
@@ -158,18 +193,38 @@ public:
 
 private:
     void cut_file(const std::string& file) {
+        if (io::is_space_time_file(file)) {
+            return cut_filling_file(file);
+        }
         io::Soup soup = read_named(file, command_.from);
         const MeshKind kind = kind_of(soup);
         if (!kind.hull) {
             throw InputError{fmt::format("{}: a mesh in space, not the hull of a slab", file)};
         }
-        if (dimension_ != 0 && kind.dimension != dimension_) {
-            throw UsageError{fmt::format("{} is a hull of {}D+t, the files before it are of {}D+t", file,
-                                         kind.dimension, dimension_)};
+        require_dimension(file, kind.dimension);
+        cut_as_input(file, [&] { kind.dimension == 2 ? cut_hull<2>(file, soup) : cut_hull<3>(file, soup); });
+    }
+
+    void cut_filling_file(const std::string& file) {
+        io::SpaceTimeSoup soup = io::read_space_time(file);
+        require_dimension(file, soup.dimension - 1);
+        cut_as_input(file,
+                     [&] { soup.dimension == 3 ? cut_filling<2>(file, soup) : cut_filling<3>(file, soup); });
+    }
+
+    void require_dimension(const std::string& file, int dimension) {
+        if (dimension_ != 0 && dimension != dimension_) {
+            throw UsageError{
+                fmt::format("{} is of {}D+t, the files before it are of {}D+t", file, dimension, dimension_)};
         }
-        dimension_ = kind.dimension;
+        dimension_ = dimension;
+    }
+
+    /// What cannot be cut is the file's fault.
+    template<class Cut>
+    static void cut_as_input(const std::string& file, const Cut& cut) {
         try {
-            kind.dimension == 2 ? cut_hull<2>(file, soup) : cut_hull<3>(file, soup);
+            cut();
         } catch (const GeometryError& error) {
             throw InputError{fmt::format("{}: {}", file, error.what()), error.entities};
         }
@@ -179,15 +234,10 @@ private:
     void cut_hull(const std::string& file, io::Soup& soup) {
         const HullArrays<D> arrays = hull_of_soup<D>(soup);
         const HullColumns<D> hull = arrays.columns();
-        const TimeSpan span = time_span(hull);
-        spans_ += fmt::format("{}[{}, {}]", spans_.empty() ? "" : ", ", span.first, span.last);
-        std::vector<std::size_t> numbers;
+        const std::vector<std::size_t> numbers = times_within(time_span(hull));
         std::vector<double> times;
-        for (std::size_t k = 0; k < times_.size(); ++k) {
-            if (sections_[k].file == nullptr && span.contains(times_[k])) {
-                numbers.push_back(k);
-                times.push_back(times_[k]);
-            }
+        for (const std::size_t k : numbers) {
+            times.push_back(times_[k]);
         }
         SliceOptions options;
         options.cell_number = [&](Index cell) { return soup.simplices[D].tag(cell); };
@@ -197,19 +247,58 @@ private:
     }
 
     template<int D>
+    void cut_filling(const std::string& file, io::SpaceTimeSoup& soup) {
+        const FillingArrays<D> arrays = filling_of_soup<D>(soup);
+        const FillingColumns<D> filling = arrays.columns();
+        for (const std::size_t k : times_within(time_span(filling))) {
+            write(file, k, slice_filling<D>(filling, times_[k]));
+        }
+    }
+
+    /// The numbers of the times in the span that are not cut yet.
+    std::vector<std::size_t> times_within(const TimeSpan& span) {
+        spans_ += fmt::format("{}[{}, {}]", spans_.empty() ? "" : ", ", span.first, span.last);
+        std::vector<std::size_t> numbers;
+        for (std::size_t k = 0; k < times_.size(); ++k) {
+            if (sections_[k].file == nullptr && span.contains(times_[k])) {
+                numbers.push_back(k);
+            }
+        }
+        return numbers;
+    }
+
+    template<int D>
     void write(const std::string& hull, std::size_t k, const Section<D>& section) {
+        const SectionReport report = measure_section(section);
+        auto json = nlohmann::ordered_json::parse(report_as_json(report, section.surface.patches));
+        json["hull"] = hull;
+        finish(hull, k, section, told(report, section.surface.patches), std::move(json));
+    }
+    template<int D>
+    void write(const std::string& filling, std::size_t k, const FillingSection<D>& section) {
+        const FillingSectionReport report = measure_section(section);
+        auto json = as_json(report);
+        json["filling"] = filling;
+        finish(filling, k, section, told(report), std::move(json));
+    }
+    template<class Cut>
+    void finish(const std::string& from, std::size_t k, const Cut& section, const std::string& text,
+                nlohmann::ordered_json json) {
         const auto path = target_.file(k);
         auto file = std::make_unique<io::AtomicFile>(path);
         write_section(*file, section);
         file->finish();
-        sections_[k] = {hull, path, std::move(file), section.surface.patches, measure_section(section)};
+        json["file"] = path.string();
+        sections_[k] = {section.time, path, std::move(file),
+                        fmt::format("{}: t = {}, cut from {}\n{}", path.string(), section.time, from, text),
+                        std::move(json)};
     }
 
     void require_all_cut() const {
         for (std::size_t k = 0; k < times_.size(); ++k) {
             if (sections_[k].file == nullptr) {
                 throw UsageError{
-                    fmt::format("t = {} is in none of the hulls, which last {}", times_[k], spans_)};
+                    fmt::format("t = {} is in none of the files, which last {}", times_[k], spans_)};
             }
         }
     }
@@ -218,7 +307,7 @@ private:
         std::vector<io::SeriesEntry> series;
         for (const Written& section : sections_) {
             section.file->commit();
-            series.push_back({section.report.time, section.path.filename()});
+            series.push_back({section.time, section.path.filename()});
         }
         if (target_.series()) {
             io::write_pvd(*target_.series(), series);
@@ -228,10 +317,7 @@ private:
     void print_json() const {
         nlohmann::ordered_json sections = nlohmann::ordered_json::array();
         for (const Written& section : sections_) {
-            auto json = nlohmann::ordered_json::parse(report_as_json(section.report, section.patches));
-            json["hull"] = section.hull;
-            json["file"] = section.path.string();
-            sections.push_back(std::move(json));
+            sections.push_back(section.json);
         }
         nlohmann::ordered_json document{{"sections", std::move(sections)}};
         if (target_.series()) {
@@ -242,28 +328,12 @@ private:
 
     void print_text() const {
         for (const Written& section : sections_) {
-            print_section(section);
+            fmt::print("{}", section.text);
         }
         if (target_.series()) {
             fmt::print("{}: {} section{}\n", target_.series()->string(), sections_.size(),
                        sections_.size() > 1 ? "s" : "");
         }
-    }
-
-    static void print_section(const Written& section) {
-        const SectionReport& report = section.report;
-        const bool plane = report.dimension == 2;
-        fmt::print("{}: t = {}, cut from {}\n", section.path.string(), report.time, section.hull);
-        fmt::print("  {} {}, {} vertices, {} closed {}{}, |sum of normals| {:.3g}\n", report.facets,
-                   plane ? "edges" : "triangles", report.vertices, report.components,
-                   plane ? "curve" : "surface", report.components > 1 ? "s" : "", report.closure);
-        std::string parts;
-        for (const PatchMeasure& patch : report.patches) {
-            parts += fmt::format("{}{} {:.10g}", parts.empty() ? "" : ", ",
-                                 patch_name(section.patches, patch.number), patch.measure);
-        }
-        fmt::print("  {} {:.10g} ({}), encloses {:.10g}\n", plane ? "length" : "area", report.measure, parts,
-                   report.enclosed);
     }
 
     const SliceCommand& command_;
@@ -280,8 +350,11 @@ void add_slice(CLI::App& program, int& exit_code) {
     auto command = std::make_shared<SliceCommand>();
     CLI::App* app = program.add_subcommand(
         "slice",
-        "Cut hulls at instants: the domain's closed boundary with its patches, and what it encloses");
-    app->add_option("FILE", command->files, "Hulls of one or more slabs")->required();
+        "Cut hulls at instants: the domain's closed boundary with its patches, and what it encloses; or "
+        "fillings: the domain's mesh");
+    app->add_option("FILE", command->files,
+                    "Hulls of one or more slabs, or fillings (MFEM of dimension 4, HDF5)")
+        ->required();
     app->add_option("--from", command->from, "Format of all FILEs, whatever their extension and content");
     CLI::Option_group* when = app->add_option_group("When", "One of");
     when->add_option("--time", command->time, "One time");

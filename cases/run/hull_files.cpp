@@ -423,6 +423,29 @@ void write_section(io::AtomicFile& file, const Section<D>& section) {
     io::write_vtu(file, mesh);
 }
 
+template<int D>
+void write_section(io::AtomicFile& file, const FillingSection<D>& section) {
+    const auto of_edge = [&section](auto member) {
+        using Value =
+            std::conditional_t<std::is_same_v<decltype(member), double PointOnEdge::*>, double, std::int64_t>;
+        return computed<Value>(section.edge.size(), [&section, member](std::size_t v) {
+            return static_cast<Value>(section.edge[v].*member);
+        });
+    };
+    MeshColumns mesh;
+    mesh.dimension = D;
+    mesh.points = first_three<D>(section.points);
+    mesh.cells = index_rows(std::span<const Simplex<D>>{section.cells});
+    mesh.point_data = {{"lower_vertex", Scalar::int64, of_edge(&PointOnEdge::lower)},
+                       {"upper_vertex", Scalar::int64, of_edge(&PointOnEdge::upper)},
+                       {"share", Scalar::float64, of_edge(&PointOnEdge::share)}};
+    mesh.cell_data = {
+        {"filling_cell", Scalar::int64,
+         Column<std::int64_t>::over(std::span{section.filling_cell.data(), section.filling_cell.size()})}};
+    mesh.field_data = {{"time", 1, Array<double>{section.time}}, number_field("dimension", {D})};
+    io::write_vtu(file, mesh);
+}
+
 MeshKind kind_of(const io::Soup& soup) {
     const int dimension = soup.top_dimension();
     if (dimension < 2) {
@@ -510,6 +533,8 @@ template SpatialMesh<2> read_cap<2>(const std::filesystem::path&);
 template SpatialMesh<3> read_cap<3>(const std::filesystem::path&);
 template void write_section<2>(io::AtomicFile&, const Section<2>&);
 template void write_section<3>(io::AtomicFile&, const Section<3>&);
+template void write_section<2>(io::AtomicFile&, const FillingSection<2>&);
+template void write_section<3>(io::AtomicFile&, const FillingSection<3>&);
 template struct HullArrays<2>;
 template struct HullArrays<3>;
 template HullArrays<2> hull_of_soup<2>(io::Soup&);

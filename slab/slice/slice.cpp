@@ -6,6 +6,7 @@
 #include "slab/check/findings.h"
 #include "slab/slice/active_cells.h"
 #include "slab/slice/cut_table.h"
+#include "slab/slice/level.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/vector.h"
@@ -25,40 +26,10 @@ namespace slabhull {
 
 namespace {
 
-/// An instant, and from which side it is approached.
-struct Level {
-    double time;
-    double tolerance;
-    bool from_above;
-
-    bool above(double t) const { return from_above ? t > time + tolerance : t >= time - tolerance; }
-    bool at(double t) const { return t >= time - tolerance && t <= time + tolerance; }
-};
-
-/// The point where a level crosses an edge of the hull, given by the vertices below and above. A vertex at
-/// the level is both ends. Comparison by vertices makes cells share the points of a section.
-struct CutPoint {
-    Index lower = no_index;
-    Index upper = no_index;
-    friend auto operator<=>(const CutPoint&, const CutPoint&) = default;
-};
-
 template<int D>
 struct CutFacet {
     std::array<CutPoint, D> corners;
     Index cell;
-
-    /// Whether the facet has lost dimension: cut points of edges at a vertex at the level are that vertex.
-    bool collapsed() const {
-        for (std::size_t i = 0; i < D; ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                if (corners[i] == corners[j]) {
-                    return true;
-                }
-            }
-        }
-        return false;
-    }
 };
 
 /// Cuts one hull at level after level.
@@ -104,45 +75,30 @@ private:
             CutFacet<D> facet{{}, cell};
             for (std::size_t i = 0; i < D; ++i) {
                 facet.corners[i] =
-                    cut_edge(level, vertices[cut.facets[f][i].lower], vertices[cut.facets[f][i].upper]);
+                    level.cut_edge(vertices[cut.facets[f][i].lower], vertices[cut.facets[f][i].upper],
+                                   [&](Index v) { return time_of(v); });
             }
-            if (!facet.collapsed()) {
+            if (!collapsed(facet.corners)) {
                 facets.push_back(facet);
             }
         }
     }
 
-    CutPoint cut_edge(const Level& level, Index lower, Index upper) const {
-        if (level.at(time_of(lower))) {
-            return {lower, lower};
-        }
-        return level.at(time_of(upper)) ? CutPoint{upper, upper} : CutPoint{lower, upper};
-    }
-
     double time_of(Index vertex) const { return hull_.points[vertex][D]; }
 
-    /// Numbers the cut points in the order of their edges; returns the number of each corner of each facet.
-    Array<Index> add_points(Section<D>& section, const Level& level,
-                            const std::vector<CutFacet<D>>& facets) const {
-        std::vector<std::pair<CutPoint, Index>> corners;
+    /// Returns the number of each corner of each facet.
+    std::vector<Index> add_points(Section<D>& section, const Level& level,
+                                  const std::vector<CutFacet<D>>& facets) const {
+        std::vector<CutPoint> corners;
         corners.reserve(facets.size() * D);
-        checked_index(facets.size() * D, "corners of a section");
         for (const CutFacet<D>& facet : facets) {
-            for (const CutPoint& point : facet.corners) {
-                corners.emplace_back(point, static_cast<Index>(corners.size()));
-            }
+            corners.insert(corners.end(), facet.corners.begin(), facet.corners.end());
         }
-        std::sort(corners.begin(), corners.end());
-        Array<Index> number(corners.size());
-        CutPoint last;
-        for (const auto& [point, corner] : corners) {
-            if (point != last) {
-                add_point(section, level, point);
-                last = point;
-            }
-            number[corner] = static_cast<Index>(section.surface.points.size() - 1);
+        NumberedCutPoints numbered = number_cut_points(corners);
+        for (const CutPoint& point : numbered.points) {
+            add_point(section, level, point);
         }
-        return number;
+        return std::move(numbered.number);
     }
 
     void add_point(Section<D>& section, const Level& level, const CutPoint& cut) const {
@@ -160,7 +116,7 @@ private:
     }
 
     void add_facets(Section<D>& section, const std::vector<CutFacet<D>>& facets,
-                    const Array<Index>& number) const {
+                    const std::vector<Index>& number) const {
         for (std::size_t f = 0; f < facets.size(); ++f) {
             Facet<D>& facet = section.surface.facets.emplace_back();
             std::copy_n(number.begin() + static_cast<std::ptrdiff_t>(f * D), D, facet.begin());

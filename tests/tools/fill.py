@@ -51,6 +51,22 @@ class Filling(ProgramTest):
                         self.assertLess(abs(told["volume"] / hull["measure"]["enclosed"] - 1), 1e-12)
                         self.assertEqual(told["counts"]["boundary_facets"], hull["counts"]["cells"])
 
+    def test_a_filling_is_cut_to_meshes_in_space(self):
+        for case, split in ((ELLIPSOID, "A"), (CIRCLE, "centre")):
+            out, _ = self.build(self.case(case.format(split)), out=f"out_{split}")
+            hull, filling = out / "slab_0000.vtu", self.dir / f"{split}.h5"
+            if slabhull("fill", hull, filling).code != 0:  # a build without HDF5
+                self.skipTest("no HDF5")
+            sections = {}
+            for kind, file in (("hull", hull), ("filling", filling)):
+                result = slabhull("slice", file, "--times", "0.01,0.02", "--out", self.dir / kind, "--json")
+                self.assertEqual(result.code, 0, result.err)
+                sections[kind] = json.loads(result.out)["sections"]
+            for cut, mesh in zip(sections["hull"], sections["filling"]):
+                self.assertLess(abs(mesh["measure"]["domain"] / cut["measure"]["enclosed"] - 1), 1e-12)
+                self.assertEqual(slabhull("check", mesh["file"]).code, 0)
+            self.assertEqual(slabhull("slice", filling, "--time", "7", "--out", self.dir / "x.vtu").code, 2)
+
     @unittest.skipUnless(has("h5py"), "no h5py")
     def test_hdf5_and_mfem_hold_the_same_mesh(self):
         out, _ = self.build(self.case(ELLIPSOID.format("A")))

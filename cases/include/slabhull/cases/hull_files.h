@@ -7,6 +7,7 @@
 #include "slabhull/io/soup.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/slice.h"
+#include "slabhull/slab/slice_filling.h"
 #include "slabhull/topology/hull.h"
 #include "slabhull/topology/spatial_mesh.h"
 
@@ -40,6 +41,11 @@ SpatialMesh<D> read_cap(const std::filesystem::path& path);
 /// Writes a section as VTU: lines (D = 2) or triangles (D = 3) in space, with the arrays of docs/formats.md.
 template<int D>
 void write_section(io::AtomicFile& file, const Section<D>& section);
+
+/// Writes a filling's section as VTU: triangles (D = 2) or tetrahedra (D = 3) in space, with the arrays of
+/// docs/formats.md.
+template<int D>
+void write_section(io::AtomicFile& file, const FillingSection<D>& section);
 
 /// What kind of mesh a file holds.
 struct MeshKind {
