@@ -39,7 +39,8 @@ struct Level {
     }
 };
 
-/// Whether a simplex of cut points has lost dimension: those of edges at a vertex at the level are that vertex.
+/// Whether a simplex of cut points has lost dimension: cut points of edges at a vertex at the level are that
+/// vertex.
 template<class Corners>
 bool collapsed(const Corners& corners) {
     for (auto i = corners.begin(); i != corners.end(); ++i) {

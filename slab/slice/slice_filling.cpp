@@ -58,8 +58,8 @@ void cut_simplex(const Level& level, const Simplex<N>& simplex, Index number, co
         const bool a_above = above(a);
         return a_above != above(b) ? !a_above : a < b;
     });
-    for (unsigned path = 0; path < 1U << (N - 1);
-         ++path) { // a bit for each step: set to go up among those below
+    // A path has a bit for each step, which is set where the step is among the vertices below.
+    for (unsigned path = 0; path < 1U << (N - 1); ++path) {
         if (std::popcount(path) != k - 1) {
             continue;
         }
