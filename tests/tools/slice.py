@@ -219,7 +219,7 @@ class Refusals(SliceTest):
         out = ("--out", self.dir / "s")
         for option, time, words in (("--time", "noon", ["--time", "noon"]), ("--time", "nan", ["finite"]),
                                     ("--time", "0.2x", ["0.2x"]), ("--time", "0.7", ["t = 0.7", "[0, 0.5]"]),
-                                    ("--time", "-1e-9", ["none of the hulls"]), ("--times", "0:1", ["first:last"]),
+                                    ("--time", "-1e-9", ["none of the files"]), ("--times", "0:1", ["first:last"]),
                                     ("--times", "0:1:1", ["2 to"]), ("--times", "0:1:1e9", ["2 to"]),
                                     ("--times", "0:1:3", ["t = 1", "[0, 0.5]"]), ("--times", "0,,1", ["\"\""]),
                                     ("--times", "", [])):
