@@ -21,12 +21,14 @@
 #include <concepts>
 #include <cstddef>
 #include <fmt/format.h>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <optional>
 #include <pugixml.hpp>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace slabhull::io {
 
@@ -161,54 +163,73 @@ private:
         return {range, false, skeleton_.appended_is_base64()};
     }
 
+    using Start = std::function<void(std::uint64_t count)>;
+    template<class S>
+    using Take = std::function<void(std::uint64_t first, std::span<const S> values)>;
+
     /// Reads all values of an array of a type. start(n) throws if n values are not expected, else returns
     /// their place. Then each(place, i, value) is called for all values, from several threads, but for the
     /// first value before all others. Packed arrays of more than `count` values are refused; any_count: any
     /// number is allowed.
-    template<class Start, class Each>
-    void values(const pugi::xml_node& node, std::string_view type, std::uint64_t count, const Start& start,
+    template<class PlaceOf, class Each>
+    void values(const pugi::xml_node& node, std::string_view type, std::uint64_t count, const PlaceOf& start,
                 const Each& each) {
+        decltype(start(0)) place{};
         const bool known = with_vtk_type(type, [&](auto zero) {
             using S = decltype(zero);
-            const Stored source = stored(node);
-            if (source.is_text) {
-                parse_text<S>(node, source.range, count, start, each);
-            } else {
-                unpack_values<S>(node, source, times(count, sizeof(S)), start, each);
-            }
+            read_values<S>(
+                node, count, [&](std::uint64_t given) { place = start(given); },
+                [&](std::uint64_t first, std::span<const S> given) {
+                    for (std::size_t i = 0; i < given.size(); ++i) {
+                        each(place, first + i, given[i]);
+                    }
+                });
         });
         if (!known) {
             fail(node, fmt::format("the type \"{}\" is not read", type));
         }
     }
 
+    /// The same by runs of values: compiled once for each type of them.
+    template<class S>
+    void read_values(const pugi::xml_node& node, std::uint64_t count, const Start& start,
+                     const Take<S>& take) {
+        const Stored source = stored(node);
+        if (source.is_text) {
+            parse_text<S>(node, source.range, count, start, take);
+        } else {
+            unpack_values<S>(node, source, times(count, sizeof(S)), start, take);
+        }
+    }
+
     /// Refuses arrays that share bytes, by which a small file could make a large mesh.
-    template<class S, class Start, class Each>
+    template<class S>
     void unpack_values(const pugi::xml_node& node, const Stored& source, std::uint64_t most,
-                       const Start& start, const Each& each) {
-        decltype(start(0)) place{};
+                       const Start& start, const Take<S>& take) {
         std::uint64_t done = 0;
+        std::vector<S> values;
         const auto begin = [&](std::uint64_t bytes) {
             if (bytes % sizeof(S) != 0) {
                 fail(node, fmt::format("{} bytes are no whole number of values", bytes));
             }
-            place = start(bytes / sizeof(S));
+            start(bytes / sizeof(S));
         };
-        const auto take = [&](std::string_view bytes) {
-            const std::uint64_t count = bytes.size() / sizeof(S);
-            for (std::uint64_t i = 0; i < count; ++i) {
-                each(place, done + i, load<S>(bytes.data() + i * sizeof(S), format_.swapped));
+        const auto take_bytes = [&](std::string_view bytes) {
+            values.resize(bytes.size() / sizeof(S));
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                values[i] = load<S>(bytes.data() + i * sizeof(S), format_.swapped);
             }
-            done += count;
+            take(done, values);
+            done += values.size();
         };
         try {
             if (const auto plain = plain_payload(format_, file_, source.range, source.is_base64)) {
                 begin(plain->end - plain->begin);
-                copy_values<S>(*plain, [&](std::uint64_t i, S value) { each(place, i, value); });
+                copy_values<S>(*plain, take);
                 consumed_ += plain->end - source.range.begin;
             } else {
                 consumed_ +=
-                    read_payload(format_, file_, source.range, source.is_base64, most, {begin, take});
+                    read_payload(format_, file_, source.range, source.is_base64, most, {begin, take_bytes});
             }
         } catch (const PayloadError& problem) {
             fail(node, problem.what());
@@ -218,22 +239,22 @@ private:
         }
     }
 
-    /// Calls use(i, value) for all values in a range: first for the first ones, then for the others from
-    /// several threads, which read directly from the file.
-    template<class S, class Use>
-    void copy_values(FileRange range, const Use& use) const {
+    /// Takes all values in a range: first the first ones, then the others from several threads, which read
+    /// directly from the file.
+    template<class S>
+    void copy_values(FileRange range, const Take<S>& take) const {
         constexpr std::size_t piece = std::size_t{1} << 17;
         const std::size_t count = (range.end - range.begin) / sizeof(S);
         const std::size_t first = std::min(count, piece);
-        copy_values<S>(range.begin, 0, first, use);
+        copy_values<S>(range.begin, 0, first, take);
         parallel_for(count - first, piece, [&](std::size_t begin, std::size_t end) {
-            copy_values<S>(range.begin, first + begin, first + end, use);
+            copy_values<S>(range.begin, first + begin, first + end, take);
         });
     }
 
     /// The same for values [begin, end) of those that begin at a byte.
-    template<class S, class Use>
-    void copy_values(std::size_t byte, std::size_t begin, std::size_t end, const Use& use) const {
+    template<class S>
+    void copy_values(std::size_t byte, std::size_t begin, std::size_t end, const Take<S>& take) const {
         constexpr std::size_t chunk = (std::size_t{1} << 15) / sizeof(S); // small enough to stay in the cache
         std::array<S, chunk> values;
         for (std::size_t done = begin; done < end; done += chunk) {
@@ -245,26 +266,25 @@ private:
                     return load<S>(reinterpret_cast<const char*>(&value), true);
                 });
             }
-            for (std::size_t i = 0; i < count; ++i) {
-                use(done + i, values[i]);
-            }
+            take(done, std::span{values}.first(count));
         }
     }
 
-    template<class S, class Start, class Each>
+    template<class S>
     void parse_text(const pugi::xml_node& node, FileRange range, std::uint64_t count, const Start& start,
-                    const Each& each) {
+                    const Take<S>& take) {
         FileCursor cursor{
             file_, range.begin, range.end,
             fmt::format("{}: array \"{}\"", soup_.path, readable(node.attribute("Name").value()))};
         const bool too_many = count > (range.end - range.begin + 1) / 2;
         const std::uint64_t wanted = too_many ? words_in(range) : count;
-        const auto place = start(wanted);
+        start(wanted);
         for (std::uint64_t i = 0; i < wanted; ++i) {
             if (cursor.at_end()) {
                 start(i);
             }
-            each(place, i, text_value<S>(cursor));
+            const S value = text_value<S>(cursor);
+            take(i, std::span{&value, 1});
         }
         if (!cursor.at_end()) {
             start(words_in(range));

@@ -5,10 +5,8 @@ import json
 import unittest
 
 import harness
-from harness import ROOT, ProgramTest, needs_formats, slabhull
+from harness import CIRCLE, ROOT, SPHERE, ProgramTest, needs_formats, slabhull
 
-CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 2\n'
-SPHERE = '[initial]\nexperiment = "expanding-sphere"\nlevel = 1\n'
 HULLS = (SPHERE,) if harness.SANITIZED else (CIRCLE, SPHERE)
 ROOM = ROOT / "examples/room.msh"
 FIXTURES = ROOT / "tests/data/io"

@@ -13,6 +13,10 @@ ROOT = Path(os.environ["SLABHULL_ROOT"])
 SANITIZED = "SLABHULL_SANITIZED" in os.environ  # ten times slower: fewer rounds do there
 SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 
+# Hulls of 6,000 triangles and 30,000 tetrahedra, for what does not depend on their size.
+CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 2\n'
+SPHERE = '[initial]\nexperiment = "expanding-sphere"\nlevel = 1\n[time]\nlayers = 2\n'
+
 
 class Result:
     def __init__(self, done):

@@ -7,10 +7,8 @@ import subprocess
 import unittest
 
 import harness
-from harness import PROGRAM, ROOT, ProgramTest, slabhull
+from harness import CIRCLE, PROGRAM, ROOT, SPHERE, ProgramTest, slabhull
 
-CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 2\n'
-SPHERE = '[initial]\nexperiment = "expanding-sphere"\nlevel = 1\n'
 ROOM = ROOT / "examples/room.msh"
 HAVE_GMSH = all(importlib.util.find_spec(module) for module in ("gmsh", "numpy"))
 HAVE_VTK = all(importlib.util.find_spec(module) for module in ("vtk", "numpy"))

@@ -7,10 +7,9 @@ import unittest
 import xml.etree.ElementTree as xml
 
 import harness
-from harness import ProgramTest, slabhull
+from harness import SPHERE, ProgramTest, slabhull
 
-SPHERE = '[initial]\nexperiment = "expanding-sphere"\nlevel = 1\n'
-CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 2\n[time]\nslabs = 2\n'
+CIRCLE = harness.CIRCLE + "[time]\nslabs = 2\n"
 PAST = 'dimension = 2\n[initial]\ncurves = [ { file = "square.dat", patch = "body" } ]\n' \
        'box = { min = [-3, -3], max = [3, 3], size = 1, patch = "walls" }\n' \
        '[time]\nstart = -1\nend = -0.5\nlayers = 2\n' \

@@ -4,10 +4,8 @@ import importlib.util
 import unittest
 
 import harness
-from harness import ROOT, ProgramTest, needs_formats, slabhull
+from harness import CIRCLE, SPHERE, ROOT, ProgramTest, needs_formats, slabhull
 
-CIRCLE = '[initial]\nexperiment = "expanding-circle"\nlevel = 2\n'
-SPHERE = '[initial]\nexperiment = "expanding-sphere"\nlevel = 1\n'
 ROOM = ROOT / "examples/room.msh"
 HAVE_READERS = all(importlib.util.find_spec(module) for module in ("meshio", "numpy", "h5py"))
 
