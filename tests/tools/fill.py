@@ -127,6 +127,8 @@ class Filling(ProgramTest):
             self.assertEqual(found["counts"]["cells"], slab["fill"]["cells"])
             smallest, one_per_cent, median = slab["fill"]["mean_ratio"]
             self.assertTrue(0 < smallest < one_per_cent < median < 1)
+            angle = slab["fill"]["angle"]
+            self.assertTrue(0 < angle["smallest"] < 70.53 < angle["largest"] < 180)  # of the regular tetrahedron
             self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
             self.assertTrue((out / f"{name}.vtu").exists())
 
