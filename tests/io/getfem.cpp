@@ -98,7 +98,7 @@ TEST_CASE("A GetFEM mesh is read, whatever the numbers of its points and convexe
     CHECK(soup.dimension == 3);
     CHECK(soup.points == Array<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1e-3, -1.5, 0.25, 0.1});
     CHECK(soup.cells == Array<Index>{0, 1, 2, 3, 0, 3, 2, 4});
-    CHECK(soup.facets == Array<Index>{0, 3, 2, 0, 2, 1, 0, 1, 3, 3, 2, 4}); // outward
+    CHECK(soup.facets == Array<Index>{2, 0, 3, 1, 0, 2, 0, 1, 3, 3, 2, 4}); // outward
     CHECK(soup.facet_attribute == Array<std::int64_t>{2, 2, 2, 5});
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("Faults of a GetFEM mesh are told with their lines", "[io]") {
     refuses("POINT COUNT 5", "POINT COUNT 99999999999", "line 8");
     refuses("POINT COUNT 5", "POINT COUNT five", "line 8");
     refuses("3  0  0  0", "3  0  0", "2 coordinates");
-    refuses("3  0  0  0", "3  0  0  0  0", "line 10"); // others have fewer
+    refuses("3  0  0  0", "3  0  0  0  0", "line 11"); // the next row has fewer
     refuses("7  1  0  0", "7  1  0", "line 11");
     refuses("7  1  0  0", "7  1  0  0  0", "POINT or END was expected");
     refuses("7  1  0  0", "3  1  0  0", "two points have the number 3");

@@ -337,8 +337,8 @@ TEMPLATE_TEST_CASE_SIG("a regular simplex over a cap has the best quality, for t
     CHECK(best.angles.largest == Approx(regular));
     const FillingQuality longer = filling_quality(filling, 2); // twice as high
     CHECK(longer.smallest < 0.9);
-    CHECK(longer.angles.smallest < regular - 5);
-    CHECK(longer.angles.largest > regular + 5);
+    CHECK(longer.angles.smallest < regular - 3);
+    CHECK(longer.angles.largest > regular + 3);
 }
 
 TEST_CASE("TetGen fills a hull in 2D + t whatever its caps and its split", "[fill]") {
