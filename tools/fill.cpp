@@ -54,6 +54,7 @@ void tell(const FillCommand& command, const Filling<D>& filling, std::size_t lay
         const FillingQuality quality = filling_quality(filling, layers);
         json["steiner_points"] = filling.steiner_points;
         json["mean_ratio"] = {quality.smallest, quality.one_per_cent, quality.median};
+        json["angle"] = {{"smallest", quality.angles.smallest}, {"largest", quality.angles.largest}};
         json["time_scale"] = quality.time_scale;
         for (const auto& [stage, seconds] : clock.stages()) {
             json["seconds"][stage] = seconds;

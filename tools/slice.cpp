@@ -353,7 +353,7 @@ void add_slice(CLI::App& program, int& exit_code) {
         "Cut hulls at instants: the domain's closed boundary with its patches, and what it encloses; or "
         "fillings: the domain's mesh");
     app->add_option("FILE", command->files,
-                    "Hulls of one or more slabs, or fillings (MFEM of dimension 4, HDF5)")
+                    "Hulls of one or more slabs, or fillings (MFEM of dimension 4, GetFEM, HDF5)")
         ->required();
     app->add_option("--from", command->from, "Format of all FILEs, whatever their extension and content");
     CLI::Option_group* when = app->add_option_group("When", "One of");

@@ -424,7 +424,8 @@ void write_section(io::AtomicFile& file, const Section<D>& section) {
 }
 
 template<int D>
-void write_section(io::AtomicFile& file, const FillingSection<D>& section) {
+void write_section(io::AtomicFile& file, const FillingSection<D>& section,
+                   std::span<const VertexValues> solution) {
     const auto of_edge = [&section](auto member) {
         using Value =
             std::conditional_t<std::is_same_v<decltype(member), double PointOnEdge::*>, double, std::int64_t>;
@@ -439,6 +440,13 @@ void write_section(io::AtomicFile& file, const FillingSection<D>& section) {
     mesh.point_data = {{"lower_vertex", Scalar::int64, of_edge(&PointOnEdge::lower)},
                        {"upper_vertex", Scalar::int64, of_edge(&PointOnEdge::upper)},
                        {"share", Scalar::float64, of_edge(&PointOnEdge::share)}};
+    for (const VertexValues& at_vertices : solution) {
+        mesh.point_data.push_back(
+            {at_vertices.name, Scalar::float64,
+             computed<double>(section.edge.size(), [&section, values = at_vertices.values](std::size_t v) {
+                 return section.edge[v].value(values);
+             })});
+    }
     mesh.cell_data = {
         {"filling_cell", Scalar::int64,
          Column<std::int64_t>::over(std::span{section.filling_cell.data(), section.filling_cell.size()})}};
@@ -533,8 +541,8 @@ template SpatialMesh<2> read_cap<2>(const std::filesystem::path&);
 template SpatialMesh<3> read_cap<3>(const std::filesystem::path&);
 template void write_section<2>(io::AtomicFile&, const Section<2>&);
 template void write_section<3>(io::AtomicFile&, const Section<3>&);
-template void write_section<2>(io::AtomicFile&, const FillingSection<2>&);
-template void write_section<3>(io::AtomicFile&, const FillingSection<3>&);
+template void write_section<2>(io::AtomicFile&, const FillingSection<2>&, std::span<const VertexValues>);
+template void write_section<3>(io::AtomicFile&, const FillingSection<3>&, std::span<const VertexValues>);
 template struct HullArrays<2>;
 template struct HullArrays<3>;
 template HullArrays<2> hull_of_soup<2>(io::Soup&);

@@ -129,6 +129,7 @@ nlohmann::ordered_json as_json(const FillingReport& report, const Filling<D>& fi
             {"volume", report.volume},
             {"smallest_volume", report.smallest_volume},
             {"mean_ratio", {quality.smallest, quality.one_per_cent, quality.median}},
+            {"angle", {{"smallest", quality.angles.smallest}, {"largest", quality.angles.largest}}},
             {"time_scale", quality.time_scale},
             {"seconds", seconds}};
 }

@@ -18,7 +18,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace heat {
@@ -28,12 +30,12 @@ using namespace slabhull;
 template<int D>
 using Function = std::function<double(const Point<D + 1>&)>;
 
-/// A problem whose solution is known.
 template<int D>
 struct Problem {
-    Function<D> solution;
-    std::function<std::array<double, D>(const Point<D + 1>&)> gradient; ///< in space
+    Function<D> solution;                                               ///< at the start and on the side
+    std::function<std::array<double, D>(const Point<D + 1>&)> gradient; ///< in space, where u is known inside
     Function<D> source;
+    FacetAttribute warm = 0; ///< u = 1 on facets of this attribute, whatever `solution` says
 };
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -132,15 +134,15 @@ std::vector<double> solve(const Filling<D>& mesh, std::vector<double> u, const F
 /// What is known at the start: the solution on the side, and on the initial cap the values that the slab
 /// before ended with, by persistent id; where there is none, the solution.
 template<int D, class Ids>
-std::vector<double> known_values(const Filling<D>& mesh, const Function<D>& solution, const Ids& before) {
+std::vector<double> known_values(const Filling<D>& mesh, const Problem<D>& problem, const Ids& before) {
     std::vector<double> u(mesh.points.size(), unknown);
     for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
         for (const Index v : mesh.facets[f]) {
             if (mesh.facet_attribute[f] > 2) { // on the side
-                u[v] = solution(mesh.points[v]);
+                u[v] = mesh.facet_attribute[f] == problem.warm ? 1 : problem.solution(mesh.points[v]);
             } else if (mesh.facet_attribute[f] == 1 && std::isnan(u[v])) {
                 const auto found = before.find(mesh.vertex_ids[v]);
-                u[v] = found != before.end() ? found->second : solution(mesh.points[v]);
+                u[v] = found != before.end() ? found->second : problem.solution(mesh.points[v]);
             }
         }
     }
@@ -210,6 +212,21 @@ Problem<D> decaying_wave() {
         return gradient;
     };
     return {u, slope, [u](const Point<D + 1>& p) { return (D - 1) * u(p); }};
+}
+
+/// The first patch is kept at 1, all others at 0, which everything is at first.
+template<int D>
+Problem<D> warm_body() {
+    const auto zero = [](const Point<D + 1>&) { return 0.0; };
+    return {zero, {}, zero, 3};
+}
+
+template<int D>
+std::optional<Problem<D>> known_problem(const std::string& name) {
+    return name == "wave"    ? std::optional{decaying_wave<D>()}
+           : name == "patch" ? std::optional{patch_test<D>()}
+           : name == "warm"  ? std::optional{warm_body<D>()}
+                             : std::nullopt;
 }
 
 } // namespace heat

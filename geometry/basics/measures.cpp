@@ -41,7 +41,7 @@ template<int D>
 using GradientGram = std::array<std::array<double, D + 1>, D + 1>;
 
 template<int D, std::size_t N>
-GradientGram<D> gradient_gram(const std::array<std::array<double, N>, D + 1>& corners) {
+GradientGram<D> gradient_gram_of_edges(const std::array<std::array<double, N>, D + 1>& corners) {
     GradientGram<D> a{};
     const auto u = minus(corners[1], corners[0]);
     const auto v = minus(corners[2], corners[0]);
@@ -65,6 +65,24 @@ GradientGram<D> gradient_gram(const std::array<std::array<double, N>, D + 1>& co
         a[0][0] -= a[0][i];
     }
     return a;
+}
+
+template<int D, std::size_t N>
+GradientGram<D> gradient_gram(const std::array<std::array<double, N>, D + 1>& corners) {
+    GradientGram<D> a{};
+    if constexpr (D == 4) {
+        std::array<Point<4>, 5> normals;
+        for (std::size_t i = 0; i <= D; ++i) {
+            const Facet<4> facet = outward_facet<4>({0, 1, 2, 3, 4}, static_cast<int>(i));
+            normals[i] = simplex_normal<3>(corners_of<3, 4>(facet, corners));
+            for (std::size_t j = 0; j <= i; ++j) {
+                a[i][j] = a[j][i] = dot(normals[i], normals[j]);
+            }
+        }
+        return a;
+    } else {
+        return gradient_gram_of_edges<D>(corners);
+    }
 }
 
 /// Calls use() with cos |cos| of the dihedral angle between each two facets, from the gradients, which are
@@ -361,6 +379,7 @@ template AngleRange dihedral_angles<2, 2>(const std::array<Point<2>, 3>&);
 template AngleRange dihedral_angles<2, 3>(const std::array<Point<3>, 3>&);
 template AngleRange dihedral_angles<3, 3>(const std::array<Point<3>, 4>&);
 template AngleRange dihedral_angles<3, 4>(const std::array<Point<4>, 4>&);
+template AngleRange dihedral_angles<4, 4>(const std::array<Point<4>, 5>&);
 template AngleHistogram angle_histogram<2, 3>(std::span<const Point<3>>, std::span<const Simplex<2>>);
 template AngleHistogram angle_histogram<3, 3>(std::span<const Point<3>>, std::span<const Simplex<3>>);
 template AngleHistogram angle_histogram<3, 4>(std::span<const Point<4>>, std::span<const Simplex<3>>);

@@ -5,6 +5,7 @@
 #include "io/files/file_bytes.h"
 #include "io/files/file_cursor.h"
 #include "io/others/mfem_types.h"
+#include "io/space_time/getfem_reader.h"
 #include "io/space_time/h5_reader.h"
 #include "slabhull/core/error.h"
 
@@ -119,7 +120,7 @@ void require_finite(const SpaceTimeSoup& soup) {
 
 bool is_space_time_file(const std::filesystem::path& path) {
     const std::string start = start_of(path);
-    if (start.starts_with(h5_signature)) {
+    if (start.starts_with(h5_signature) || starts_like_getfem(start)) {
         return true;
     }
     const std::size_t keyword = start.find("dimension");
@@ -133,7 +134,9 @@ SpaceTimeSoup read_space_time(const std::filesystem::path& path) {
         soup = read_h5(path);
     } else {
         const Array<char> bytes = read_bytes(path);
-        soup = MfemReader{{bytes.data(), bytes.size()}, path.string()}.read();
+        const std::string_view text{bytes.data(), bytes.size()};
+        soup = starts_like_getfem(text) ? read_getfem(text, path.string())
+                                        : MfemReader{text, path.string()}.read();
     }
     const auto width = static_cast<std::size_t>(soup.dimension);
     require_vertices(soup, soup.cells, width + 1, "cell");

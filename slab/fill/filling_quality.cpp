@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/filling_quality.h"
 
+#include "core/pieces.h"
+
 #include "slab/fill/layer_scale.h"
-#include "slabhull/core/parallel.h"
 #include "slabhull/core/vector.h"
 #include "slabhull/geometry/measures.h"
 
@@ -14,7 +15,11 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::size_t cells_per_ratio = 1 << 14;
+constexpr std::size_t cells_per_piece_of_quality = 1 << 14;
+
+AngleRange both(const AngleRange& a, const AngleRange& b) {
+    return {std::min(a.smallest, b.smallest), std::max(a.largest, b.largest)};
+}
 
 /// The facets of a filling that are the cells of the initial cap.
 template<int D>
@@ -25,10 +30,7 @@ std::span<const Simplex<D>> initial_facets(const Filling<D>& filling) {
 }
 
 template<int N>
-double mean_ratio(std::array<Point<N>, N + 1> corners, double time_scale) {
-    for (Point<N>& corner : corners) {
-        corner[N - 1] *= time_scale;
-    }
+double mean_ratio(const std::array<Point<N>, N + 1>& corners) {
     double squares = 0;
     for (std::size_t i = 0; i <= N; ++i) {
         for (std::size_t j = 0; j < i; ++j) {
@@ -54,12 +56,20 @@ FillingQuality filling_quality(const Filling<D>& filling, std::size_t layers) {
     }
     quality.time_scale = layer_scale<D>(initial_facets(filling), filling.points, layers, filling.time);
     Array<float> ratios(filling.cells.size());
-    parallel_for(ratios.size(), cells_per_ratio, [&](std::size_t begin, std::size_t end) {
+    const auto measure = [&](std::size_t begin, std::size_t end, AngleRange& angles) {
         for (std::size_t c = begin; c < end; ++c) {
-            ratios[c] = static_cast<float>(mean_ratio<D + 1>(
-                corners_of<D + 1, D + 1>(filling.cells[c], filling.points), quality.time_scale));
+            auto corners = corners_of<D + 1, D + 1>(filling.cells[c], filling.points);
+            for (Point<D + 1>& corner : corners) {
+                corner[D] *= quality.time_scale;
+            }
+            ratios[c] = static_cast<float>(mean_ratio<D + 1>(corners));
+            angles = both(angles, dihedral_angles<D + 1, D + 1>(corners));
         }
-    });
+    };
+    for (const AngleRange& angles :
+         parallel_pieces<AngleRange>(ratios.size(), cells_per_piece_of_quality, measure, quality.angles)) {
+        quality.angles = both(quality.angles, angles);
+    }
     const auto quantile = [&](std::size_t rank) {
         const auto place = ratios.begin() + static_cast<std::ptrdiff_t>(rank);
         std::nth_element(ratios.begin(), place, ratios.end());

@@ -2,7 +2,10 @@
 // The example of a solver: patch test and orders of convergence, several slabs of a moving domain.
 #include "examples/heat/heat.h"
 
+#include "io/scratch.h"
 #include "slab/swept_grid.h"
+#include "slabhull/cases/hull_files.h"
+#include "slabhull/io/files.h"
 #include "slabhull/slab/fill.h"
 #include "slabhull/slab/march.h"
 
@@ -53,7 +56,7 @@ heat::Errors solved(Index n, int layers, Split split, const heat::Problem<D>& pr
         Slab<D> slab = march.propose(levels);
         REQUIRE(slab.cap_moved);
         const Filling<D> filling = fill_slab(slab.hull);
-        const auto known = heat::known_values(filling, problem.solution, terminating);
+        const auto known = heat::known_values(filling, problem, terminating);
         const std::vector<double> u = heat::solve(filling, known, problem.source);
         const heat::Errors error = heat::errors(filling, u, problem);
         total.value += error.value;
@@ -97,4 +100,50 @@ TEMPLATE_TEST_CASE_SIG("the error is of order two, that of the gradient of order
         CHECK(std::abs(value - 2) < 0.15);
         CHECK(std::abs(gradient - 1) < 0.15);
     }
+}
+
+TEMPLATE_TEST_CASE_SIG("u is written with the sections that it is cut with", "[heat]", ((int D), D), 2, 3) {
+    const scratch::Folder folder;
+    const heat::Problem<D> problem = heat::patch_test<D>();
+    March<D> march = march_of_box<D>(3, D == 2 ? Split::centre : Split::C);
+    const Filling<D> filling = fill_slab(march.propose({0, 0.125, 0.25}).hull);
+    const std::unordered_map<PersistentId, double> none;
+    const std::vector<double> u =
+        heat::solve(filling, heat::known_values(filling, problem, none), problem.source);
+    for (const double time : {0.1, 0.125, 0.25}) { // inside a layer, on a level, at the end
+        const FillingSection<D> section = slice_filling<D>(columns_of(filling), time);
+        const VertexValues solution[]{{"u", u}};
+        io::AtomicFile file{folder / "u.vtu"};
+        write_section<D>(file, section, solution);
+        file.commit();
+        const io::Soup read = io::read_vtu(folder / "u.vtu");
+        REQUIRE(read.find_point_data("u") != nullptr);
+        const auto& values = std::get<Array<double>>(read.find_point_data("u")->values);
+        REQUIRE(values.size() == section.points.size());
+        for (std::size_t v = 0; v < values.size(); ++v) {
+            Point<D + 1> place{};
+            std::copy_n(read.points[v].begin(), D, place.begin());
+            place[D] = time;
+            REQUIRE(std::abs(values[v] - problem.solution(place)) < 1e-10);
+        }
+    }
+}
+
+TEST_CASE("a warm body warms what is beside it, and its values follow it", "[heat]") {
+    const heat::Problem<2> problem = heat::warm_body<2>();
+    March<2> march = march_of_box<2>(6, Split::diagonal); // one patch, all around
+    const Filling<2> filling = fill_slab(march.propose({0, 0.125, 0.25}).hull);
+    const std::unordered_map<PersistentId, double> none;
+    const auto u = heat::solve(filling, heat::known_values(filling, problem, none), problem.source);
+    double least = 1;
+    for (std::size_t f = 0; f < filling.facets.size(); ++f) {
+        for (const Index v : filling.facets[f]) {
+            if (filling.facet_attribute[f] == 3) {
+                REQUIRE(u[v] == 1);
+            } else if (filling.facet_attribute[f] == 2) {
+                least = std::min(least, u[v]);
+            }
+        }
+    }
+    CHECK(least > 0.5); // the box is warm after this time: exp(-2 pi^2 / 4) is 0.007
 }

@@ -233,6 +233,14 @@ def by_hand():
         "1 4 0 1 2 3\n3 4 1 2 3 4\n\nvertices\n5\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 1e-3\n0 0 0 1\n")
     put("filling", "tetrahedra", "MFEM mesh v1.0\ndimension\n3\nelements\n2\n1 4 0 1 2 3\n1 4 1 2 3 4\nboundary\n1\n2 2 0 1 2\n"
         "vertices\n5\n3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1.5\n")
+    put("filling", "getfem", "% GETFEM MESH FILE\n% GETFEM VERSION 5.4.2\nBEGIN POINTS LIST\nPOINT COUNT 5\nPOINT 0 0 0 0\n"
+        "POINT 1 1 0 0\nPOINT 7 0 1 0\nPOINT 3 0 0 1\nPOINT 4 1 1 1.5\nEND POINTS LIST\n"
+        "BEGIN MESH STRUCTURE DESCRIPTION\nCONVEX COUNT 2\nCONVEX 0 'GT_PK(3,1)' 0 1 7 3\nCONVEX 5 'GT_PK(3,1)' 1 7 3 4\n"
+        "END MESH STRUCTURE DESCRIPTION\nBEGIN REGION 3\n0/3 5/0 \nEND REGION 3\nBEGIN REGION 4\n5\nEND REGION 4\n"
+        "BEGIN MESH_FEM\nQDIM 1\nEND MESH_FEM\n")
+    put("filling", "getfem_4d", "% GETFEM MESH FILE\nBEGIN POINTS LIST\nPOINT 0 0 0 0 0\nPOINT 1 1 0 0 0\nPOINT 2 0 1 0 0\n"
+        "POINT 3 0 0 1 0\nPOINT 4 0 0 0 1\nEND POINTS LIST\nBEGIN MESH STRUCTURE DESCRIPTION\n"
+        "CONVEX 0 'GT_PK(4,1)' 0 1 2 3 4\nEND MESH STRUCTURE DESCRIPTION\nBEGIN REGION 1\n0/4\nEND REGION 1\n")
     put("medit", "curved.mesh", "MeshVersionFormatted 2 Dimension 2 Vertices 6 0 0 0 2 0 0 0 2 0 1 0 0 1 1 0 0 1 0\n"
         "EdgesP2 1 1 2 4 3 TrianglesP2 1 1 2 3 4 5 6 7 End\n")
     curved = [(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, 1), (0, 1, 1)]

@@ -166,6 +166,19 @@ TEST_CASE("angles of known simplices") {
     const auto sliver = dihedral_angles<3, 3>({{{1, 0, 1e-3}, {-1, 0, 1e-3}, {0, 1, 0}, {0, -1, 0}}});
     CHECK(sliver.smallest < 0.2);
     CHECK(sliver.largest == Approx(180 - 2 * std::atan(1e-3) * degrees).epsilon(1e-9));
+    const double base = -std::sqrt(0.2); // of a pentatope over a tetrahedron, its tip at height 4 / sqrt(5)
+    const auto pentatope = dihedral_angles<4, 4>(
+        {{{1, 1, 1, base}, {1, -1, -1, base}, {-1, 1, -1, base}, {-1, -1, 1, base}, {0, 0, 0, -4 * base}}});
+    CHECK(pentatope.smallest == Approx(std::acos(1.0 / 4) * degrees));
+    CHECK(pentatope.largest == Approx(std::acos(1.0 / 4) * degrees));
+    const auto path = dihedral_angles<4, 4>( // Kuhn's: along the edges of a cube
+        {{{0, 0, 0, 0}, {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}, {1, 1, 1, 1}}});
+    CHECK(path.smallest == Approx(45));
+    CHECK(path.largest == Approx(90));
+    const auto axes =
+        dihedral_angles<4, 4>({{{0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}});
+    CHECK(axes.smallest == Approx(60)); // cos = 1 / sqrt(4)
+    CHECK(axes.largest == Approx(90));
 }
 
 TEST_CASE("angles do not change when a simplex is moved into a space of more dimensions") {

@@ -7,6 +7,7 @@
 #include "slabhull/core/parallel.h"
 #include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/check_filling.h"
+#include "slabhull/slab/filling_quality.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -305,6 +306,39 @@ TEMPLATE_TEST_CASE_SIG("where no place helps, vertices of the hull stay and the 
     CHECK_FALSE(not_positive(filling).empty());
     CHECK(std::equal(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(filling.hull_points),
                      filling.points.begin()));
+}
+
+TEMPLATE_TEST_CASE_SIG("a regular simplex over a cap has the best quality, for the layer lasts an edge",
+                       "[fill]", ((int D), D), 2, 3) {
+    // Edges of 2 over the cap at t = 0; the tip is as high as a regular simplex over it, if t = 1 is an edge.
+    Filling<D> filling;
+    if constexpr (D == 2) {
+        filling.points = {
+            {0, 0, 0}, {2, 0, 0}, {1, std::sqrt(3), 0}, {1, 1 / std::sqrt(3), std::sqrt(2.0 / 3)}};
+        filling.cells = {{0, 1, 2, 3}};
+        filling.facets = {{0, 1, 2}};
+    } else {
+        const double a = std::sqrt(0.5);
+        filling.points = {
+            {a, a, a, 0}, {a, -a, -a, 0}, {-a, a, -a, 0}, {-a, -a, a, 0}, {0, 0, 0, std::sqrt(5.0 / 8)}};
+        filling.cells = {{0, 1, 2, 3, 4}};
+        filling.facets = {{0, 1, 2, 3}};
+    }
+    filling.facet_attribute = {1};
+    filling.time = {0, 1};
+    if (!(signed_measure<D + 1>(corners_of<D + 1, D + 1>(filling.cells[0], filling.points)) > 0)) {
+        std::swap(filling.cells[0][0], filling.cells[0][1]);
+    }
+    const double regular = std::acos(1.0 / (D + 1)) * 180 / std::acos(-1.0);
+    const FillingQuality best = filling_quality(filling, 1);
+    CHECK(best.time_scale == Approx(2));
+    CHECK(best.smallest == Approx(1).epsilon(1e-6));
+    CHECK(best.angles.smallest == Approx(regular));
+    CHECK(best.angles.largest == Approx(regular));
+    const FillingQuality longer = filling_quality(filling, 2); // twice as high
+    CHECK(longer.smallest < 0.9);
+    CHECK(longer.angles.smallest < regular - 3);
+    CHECK(longer.angles.largest > regular + 3);
 }
 
 TEST_CASE("TetGen fills a hull in 2D + t whatever its caps and its split", "[fill]") {

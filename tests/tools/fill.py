@@ -96,6 +96,20 @@ class Filling(ProgramTest):
             volume = getfem.asm_generic(getfem.MeshIm(mesh, getfem.Integ(rule)), 0, "1", -1)
             self.assertLess(abs(float(volume) / told["volume"] - 1), 1e-12)
 
+    @unittest.skipUnless(has("getfem"), "no GetFEM")
+    def test_what_getfem_saves_is_read(self):
+        import getfem
+        for case, split in ((ELLIPSOID, "A"), (CIRCLE, "centre")):
+            out, _ = self.build(self.case(case.format(split)), out=f"out_{split}")
+            told = self.fill(out / "slab_0000.vtu", self.dir / "ours.getfem")
+            mesh = getfem.Mesh("load", str(self.dir / "ours.getfem"))
+            mesh.save(str(self.dir / "saved.getfem"))
+            found = json.loads(slabhull("check", self.dir / "saved.getfem", "--json").out)
+            self.assertEqual(found["defects"], {})
+            for key in ("counts", "facets_by_attribute"):
+                self.assertEqual(found[key], told[key])
+            self.assertLess(abs(found["volume"] / told["volume"] - 1), 1e-12)
+
     @unittest.skipUnless(has("getfem", "numpy"), "no GetFEM")
     def test_getfem_solves_on_our_pentatopes(self):
         out, _ = self.build(self.case(ELLIPSOID.format("A")))
@@ -113,6 +127,8 @@ class Filling(ProgramTest):
             self.assertEqual(found["counts"]["cells"], slab["fill"]["cells"])
             smallest, one_per_cent, median = slab["fill"]["mean_ratio"]
             self.assertTrue(0 < smallest < one_per_cent < median < 1)
+            angle = slab["fill"]["angle"]
+            self.assertTrue(0 < angle["smallest"] < 70.53 < angle["largest"] < 180)  # of the regular tetrahedron
             self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
             self.assertTrue((out / f"{name}.vtu").exists())
 
@@ -159,19 +175,16 @@ class Filling(ProgramTest):
         self.assertIn("2D+t", result.err)
 
     def test_fillings_are_converted_and_told_of(self):
-        for case, names in ((ELLIPSOID.format("C"), ("a.mfem", "b.h5", "c.mfem")),
-                            (CIRCLE.format("centre"), ("a.h5", "b.msh", "c.getfem", "d.vtu"))):
+        for case, names in ((ELLIPSOID.format("C"), ("a.mfem", "b.h5", "c.mfem", "d.getfem")),
+                            (CIRCLE.format("centre"), ("a.h5", "b.getfem", "c.msh", "d.vtu"))):
             out, _ = self.build(self.case(case), out=f"out_{len(names)}")
             hull = out / "slab_0000.vtu"
             told = self.fill(hull, self.dir / names[0])
             for before, after in zip(names, names[1:]):
-                if before.endswith(".getfem"):
-                    before = names[0]
                 result = slabhull("convert", self.dir / before, self.dir / after)
                 self.assertEqual(result.code, 0, result.err)
-                if not after.endswith(".getfem"):
-                    found = self.checked(self.dir / after, hull)
-                    self.assertEqual(found["counts"], told["counts"])
+                found = self.checked(self.dir / after, hull)
+                self.assertEqual(found["counts"], told["counts"])
             seen = json.loads(slabhull("info", self.dir / names[0], "--json").out)
             self.assertEqual((seen["kind"], seen["counts"]), ("filling", told["counts"]))
             self.assertEqual(seen["facets_by_attribute"], told["facets_by_attribute"])

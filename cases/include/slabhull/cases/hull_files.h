@@ -42,10 +42,17 @@ SpatialMesh<D> read_cap(const std::filesystem::path& path);
 template<int D>
 void write_section(io::AtomicFile& file, const Section<D>& section);
 
+/// What a solver found at a filling's vertices.
+struct VertexValues {
+    std::string name;
+    std::span<const double> values;
+};
+
 /// Writes a filling's section as VTU: triangles (D = 2) or tetrahedra (D = 3) in space, with the arrays of
-/// docs/formats.md.
+/// docs/formats.md, and `solution`, cut with the mesh, as point data.
 template<int D>
-void write_section(io::AtomicFile& file, const FillingSection<D>& section);
+void write_section(io::AtomicFile& file, const FillingSection<D>& section,
+                   std::span<const VertexValues> solution = {});
 
 /// What kind of mesh a file holds.
 struct MeshKind {

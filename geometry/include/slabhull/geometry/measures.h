@@ -26,9 +26,9 @@ struct AngleRange {
     double smallest;
     double largest;
 };
-/// For (D, N) = (2, 2), (2, 3), (3, 3), (3, 4). From the Gram matrix of the edges: accurate to about 1e-6
-/// degrees near 0 and 180. A simplex with a facet of measure zero has no dihedral angle there: its range is 0
-/// to 180.
+/// For (D, N) = (2, 2), (2, 3), (3, 3), (3, 4), (4, 4). From the Gram matrix of the edges (D = 4: from the
+/// facets' normals): accurate to about 1e-6 degrees near 0 and 180. A simplex with a facet of measure zero
+/// has no dihedral angle there: its range is 0 to 180.
 template<int D, int N>
 AngleRange dihedral_angles(const std::array<Point<N>, D + 1>& corners);
 

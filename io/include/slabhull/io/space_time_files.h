@@ -56,9 +56,10 @@ void write_getfem(AtomicFile& file, const SpaceTimeColumns& mesh);
 /// and /slab, numbers from 0. Throws UsageError in a build without HDF5.
 void write_h5(AtomicFile& file, const SpaceTimeColumns& mesh);
 
-/// Whether a file starts like a space-time mesh: HDF5, or MFEM of dimension 4.
+/// Whether a file starts like a space-time mesh: HDF5, GetFEM, or MFEM of dimension 4.
 bool is_space_time_file(const std::filesystem::path& path);
-/// Reads what write_h5() writes, or MFEM mesh v1.0 of simplices of dimension 3 or 4 (with any of the codes).
+/// Reads what write_h5() writes, GetFEM meshes, or MFEM mesh v1.0 of simplices of dimension 3 or 4 (with any
+/// of the codes).
 /// Every index is in range; else throws InputError naming the place.
 SpaceTimeSoup read_space_time(const std::filesystem::path& path);
 

@@ -8,18 +8,24 @@
 #include "slabhull/topology/filling.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
+#include <span>
 
 namespace slabhull {
 
 /// Where a point of a section lies in the filling: on the edge from a vertex below the instant to one above.
-/// A function that is linear in each simplex has the value (1 - share) f(lower) + share f(upper). `lower ==
-/// upper` at a vertex.
+/// `share` is 0 at the lower one and 1 at the upper; `lower == upper` at a vertex.
 struct PointOnEdge {
     Index lower = no_index;
     Index upper = no_index;
     double share = 0;
+
+    /// The value there of a function that is linear in each simplex, from its values at the vertices.
+    double value(std::span<const double> at_vertices) const {
+        return std::lerp(at_vertices[lower], at_vertices[upper], share);
+    }
 };
 
 /// The domain at one instant, cut out of a filling: a conforming mesh of simplices of dimension D.
