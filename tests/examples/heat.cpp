@@ -85,8 +85,8 @@ TEST_CASE("a solution that is linear in space and time is found to rounding, wha
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("the error is of order two, that of the gradient of order one", "[heat]", ((int D), D),
-                       2, 3) {
+TEMPLATE_TEST_CASE_SIG("the error is of order two, that of the gradient of order one", "[heat][long]",
+                       ((int D), D), 2, 3) {
     const Split split = D == 2 ? Split::diagonal : Split::A;
     std::vector<heat::Errors> found;
     for (const int level : {2, 3, 4}) {

@@ -58,7 +58,7 @@ TEST_CASE("the load of a domain of one spacing is its volume in cubes", "[blocks
     CHECK(cubes_in(sample_load(surface, size)) == Approx(enclosed(surface) / 0.001).epsilon(0.02));
 }
 
-TEST_CASE("the load of a graded domain is the integral of h^-3", "[blocks]") {
+TEST_CASE("the load of a graded domain is the integral of h^-3", "[blocks][long]") {
     const Surface<3> surface = with_bodies(cube(3, 4), {ball({0.5, 0, 0}, 1, 8)});
     const SizeField<3> size = size_of(surface, {0.3});
     constexpr int n = 150;
@@ -152,7 +152,7 @@ TEST_CASE("blocks want equal shares, also of a load that is all in a corner", "[
     }
 }
 
-TEST_CASE("every room is filled in blocks, up to its boundary, which stays as it was", "[blocks]") {
+TEST_CASE("every room is filled in blocks, up to its boundary, which stays as it was", "[blocks][long]") {
     for (const Room& room : rooms()) {
         for (const int count : {2, 5}) {
             INFO(room.name << " in " << count);
@@ -166,7 +166,7 @@ TEST_CASE("every room is filled in blocks, up to its boundary, which stays as it
     }
 }
 
-TEST_CASE("blocks cost neither angles nor many cells", "[blocks]") {
+TEST_CASE("blocks cost neither angles nor many cells", "[blocks][long]") {
     const Surface<3> surface = sphere_in_cube(5);
     const CapMesh<3> whole = mesh_cap(surface, in_blocks(1, 0.24));
     CHECK(whole.blocks == 1);

@@ -241,11 +241,11 @@ TEST_CASE("Memory that a child takes is seen", "[io]") {
     CHECK(extra_of([] { return true; }) < 4 * mebibyte);
 }
 
-TEST_CASE("MSH is written and read in less than 64 MiB beside the mesh", "[io]") {
+TEST_CASE("MSH is written and read in less than 64 MiB beside the mesh", "[io][long]") {
     check_memory([](const auto& path, const auto& mesh) { io::write_msh(path, mesh); }, io::read_msh);
 }
 
-TEST_CASE("Raw VTU is written and read in less than 64 MiB beside the mesh", "[io]") {
+TEST_CASE("Raw VTU is written and read in less than 64 MiB beside the mesh", "[io][long]") {
     check_memory(vtu_writer(io::VtuEncoding::raw), io::read_vtu);
 }
 
@@ -473,7 +473,7 @@ TEST_CASE("An MSH file of more than 4 GiB is written whole", "[.large]") {
     CHECK(last.substr(40) == "\n$EndElements\n");
 }
 
-TEST_CASE("Data of more rows than MSH can count are refused before anything is written", "[io]") {
+TEST_CASE("Data of more rows than MSH can count are refused before anything is written", "[io][long]") {
     const std::size_t rows = std::size_t{1} << 31;
     io::MeshColumns mesh = endless_mesh(rows, rows);
     mesh.cell_data = {{"many", io::Scalar::int32, Column<std::int64_t>::constant(rows, 1)}};

@@ -359,6 +359,7 @@ TEST_CASE("XDMF or its HDF5 file damaged or cut short is refused or read as a co
         CHECK(is_consistent(soup));
     };
     constexpr int count = rounds(60); // each file takes a process
+    constexpr std::size_t cuts = rounds(30);
     const Specimen packed{{H5T_IEEE_F64BE, {2}, true, 9}};
     const scratch::Folder folder;
     io::write_xdmf(folder / "a.xdmf", specimens::Grid{3, 2}.columns());
@@ -370,7 +371,7 @@ TEST_CASE("XDMF or its HDF5 file damaged or cut short is refused or read as a co
         scratch::put(path, xml);
         const auto read_beside = [&](const std::filesystem::path&) { read(path); };
         CHECK(scratch::survive_damage(read_beside, bytes, data, count) > 0);
-        for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 30) {
+        for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / cuts) {
             CHECK_FALSE(scratch::refusal(read_beside, scratch::put(data, bytes.substr(0, size))).empty());
         }
     }

@@ -87,7 +87,7 @@ TEMPLATE_TEST_CASE_SIG("sound hulls do not cross themselves, and their caps need
 }
 
 TEMPLATE_TEST_CASE_SIG("a side that is shaken between its levels crosses just where a judge says",
-                       "[embedding]", ((int D), D), 2, 3) {
+                       "[embedding][long]", ((int D), D), 2, 3) {
     std::size_t planted = 0;
     for (unsigned seed = 1; seed <= 6; ++seed) {
         Claims<D> claims =

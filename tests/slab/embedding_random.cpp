@@ -273,7 +273,7 @@ TEMPLATE_TEST_CASE_SIG("20 random bodies that go through walls or themselves are
     }
 }
 
-TEST_CASE("hulls of every split that are shaken cross just where pairs do", "[embedding]") {
+TEST_CASE("hulls of every split that are shaken cross just where pairs do", "[embedding][long]") {
     Random random{29};
     for (const Split split : {Split::A, Split::B, Split::C, Split::D, Split::E}) {
         const Soup<3> hull = built<3>("ellipsoid", 0.1, split, 4);

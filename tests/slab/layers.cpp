@@ -209,7 +209,7 @@ MotionPointer<D> along(const std::string& speed) {
 } // namespace
 
 TEMPLATE_TEST_CASE_SIG("layers by themselves keep chords near trajectories and facets from turning far",
-                       "[layers]", ((int D), D), 2, 3) {
+                       "[layers][long]", ((int D), D), 2, 3) {
     const auto& setting = Setting<D>::get();
     RandomMotions<D> random{D};
     for (int round = 0; round < 12; ++round) {
@@ -336,7 +336,7 @@ TEMPLATE_TEST_CASE_SIG("the result is that of as many given layers, for any numb
     CHECK(again.fit.time == swept.fit.time);
 }
 
-TEMPLATE_TEST_CASE_SIG("a motion that needs too many layers is refused by patch and time", "[layers]",
+TEMPLATE_TEST_CASE_SIG("a motion that needs too many layers is refused by patch and time", "[layers][long]",
                        ((int D), D), 2, 3) {
     const auto& setting = Setting<D>::get();
     try {
@@ -409,7 +409,7 @@ TEMPLATE_TEST_CASE_SIG("given layers that are too few are built, with the number
     CHECK_THROWS_AS(march.propose({0, 0.5, 1}), UsageError);
 }
 
-TEST_CASE("with layers by themselves the turning ellipsoid's side converges at order 2", "[layers]") {
+TEST_CASE("with layers by themselves the turning ellipsoid's side converges at order 2", "[layers][long]") {
     std::vector<specimens::ErrorRow> rows;
     for (const double refinement : {0.5, 0.75, 1.0, 1.5}) {
         Case the_case = experiment_at("ellipsoid", refinement);

@@ -470,7 +470,7 @@ TEST_CASE("sections of the plane experiments converge at order 2", "[slice]") {
     converge<2>("expanding-circle", 10, 24);
 }
 
-TEST_CASE("sections of the experiments in space converge at order 2", "[slice]") {
+TEST_CASE("sections of the experiments in space converge at order 2", "[slice][long]") {
     converge<3>("sphere", 10, 4);
     converge<3>("expanding-sphere", 10, 4);
     converge<3>("ellipsoid", 16, 5);

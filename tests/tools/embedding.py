@@ -90,6 +90,7 @@ class Embedding(ProgramTest):
             off_centre = abs(place[0] - x) + abs(place[1] - y) + sum(map(abs, place[2:]))
             self.assertAlmostEqual(off_centre, RADIUS, delta=1e-4)
 
+    @harness.long
     def test_bodies_that_pass_each_other_are_not_blamed(self):
         for dimension, splits in ((2, ("centre", "diagonal")), (3, ("C", "E"))):
             for split in splits:
@@ -114,6 +115,7 @@ class Embedding(ProgramTest):
                    for n in (1, 2, 7)}
         self.assertEqual(len(reports), 1)
 
+    @harness.long
     def test_the_examples_are_embedded(self):
         for name, *files in (("room.toml", "room.msh"), ("airfoil.toml", "naca0012.dat")):
             for file in files:

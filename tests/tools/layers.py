@@ -43,6 +43,7 @@ class LayersTest(ProgramTest):
     def slab(self, case, out="out"):
         return self.build(case, out=out)[1]["slabs"][0]
 
+    @harness.long
     def test_all_defaults_have_the_measure_of_200_layers(self):
         for angle in (1.0, math.pi):
             by_itself = self.slab(self.turned(angle))

@@ -50,6 +50,7 @@ class Room(ProgramTest):
         self.assertAlmostEqual(caps["terminating"], caps["initial"], delta=1e-7)
         self.assertAlmostEqual(caps["enclosed"], caps["initial"], delta=2e-3 * box)
 
+    @harness.long
     def test_every_format_of_the_room_that_gmsh_writes_gives_a_sound_hull(self):
         if shutil.which("gmsh") is None:
             self.skipTest("no gmsh here")
@@ -100,6 +101,7 @@ class OpenFoamSurfaces(ProgramTest):
 
 
 class Propeller(ProgramTest):
+    @harness.long
     def test_three_blades_of_an_stl_file_turn_in_a_box(self):
         out, report = self.build(example(self, "propeller.toml", "propeller.stl"))
         self.assertEqual(len(report["slabs"]), 3)
