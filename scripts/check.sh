@@ -10,7 +10,7 @@ scripts/install-deps.sh --test
 
 run_tests() { # PRESET [options of ctest]
     scripts/build.sh "$1" -DSLABHULL_TESTS=ON -DSLABHULL_UNITY=ON
-    ctest --test-dir "build/$1" --no-tests=error --output-on-failure -j "$(nproc)" "${@:2}"
+    ctest --test-dir "build/$1" --no-tests=error --output-on-failure -j $(($(nproc) + 1)) "${@:2}"
 }
 check_sanitizers() { run_tests dev -LE large; }
 check_threads() { run_tests tsan -L parallel; }

@@ -5,4 +5,4 @@ cd "$(dirname "$0")/.."
 scripts/install-deps.sh --test
 scripts/check-format.sh
 scripts/build.sh release -DSLABHULL_TESTS=ON -DSLABHULL_UNITY=ON
-ctest --test-dir build/release --no-tests=error --output-on-failure -j "$(nproc)"
+ctest --test-dir build/release --no-tests=error --output-on-failure -j $(($(nproc) + 1)) # some wait for files and children

@@ -358,7 +358,7 @@ TEST_CASE("XDMF or its HDF5 file damaged or cut short is refused or read as a co
         const io::Soup soup = io::read_xdmf(path); // outside CHECK, which would catch what it throws
         CHECK(is_consistent(soup));
     };
-    constexpr int count = rounds(60); // each file takes a process
+    constexpr int count = rounds(30); // each file takes a process
     constexpr std::size_t cuts = rounds(30);
     const Specimen packed{{H5T_IEEE_F64BE, {2}, true, 9}};
     const scratch::Folder folder;
