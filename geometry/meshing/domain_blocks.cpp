@@ -5,6 +5,7 @@
 #include "core/used_vertices.h"
 #include "geometry/embedding/facet_pair.h"
 #include "geometry/meshing/block_interface.h"
+#include "geometry/meshing/grid_directions.h"
 #include "geometry/meshing/plane_frame.h"
 #include "geometry/meshing/surface_division.h"
 
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace slabhull {
@@ -51,9 +53,9 @@ struct CutPlane {
 
 /// The axes, and the diagonals of the coordinate planes and of the cube.
 std::vector<Point<3>> directions() {
+    constexpr auto around = detail::grid_directions();
     std::vector<Point<3>> all;
-    for (int code = 14; code < 27; ++code) { // one of each opposite pair
-        const Point<3> d{double(code % 3 - 1), double(code / 3 % 3 - 1), double(code / 9 - 1)};
+    for (const Point<3>& d : std::span{around}.subspan(around.size() / 2 + 1)) { // one of each opposite pair
         all.push_back(times(1 / norm(d), d));
     }
     return all;

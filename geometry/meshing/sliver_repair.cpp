@@ -5,6 +5,7 @@
 
 #include "geometry/basics/predicates.h"
 #include "geometry/basics/vector_algebra.h"
+#include "geometry/meshing/grid_directions.h"
 
 #include "slabhull/core/parallel.h"
 #include "slabhull/geometry/measures.h"
@@ -117,9 +118,8 @@ private:
     bool move_to_better(Index vertex, double step, double& best) {
         const Point<3> from = mesh_.points[vertex];
         Point<3> to = from;
-        for (int code = 0; code < 27; ++code) {
-            const Point<3> direction{double(code % 3 - 1), double(code / 3 % 3 - 1), double(code / 9 - 1)};
-            const double length = code == 13 ? 1 : norm(direction);
+        for (const Point<3>& direction : detail::grid_directions()) {
+            const double length = direction == Point<3>{} ? 1 : norm(direction);
             mesh_.points[vertex] = plus(from, times(step / length, direction));
             const double smallest = smallest_around(best);
             if (smallest > best && all_positive()) {

@@ -127,10 +127,13 @@ private:
         std::optional<std::size_t> claimed;
         std::vector<std::int64_t> numbers;
         while (next_row("POINT")) {
-            if (numbers.empty() && !claimed && (claimed = count(13, "points"))) {
-                soup_.points.reserve(*claimed * 4);
-                numbers.reserve(*claimed);
-                continue;
+            if (numbers.empty() && !claimed) {
+                claimed = count(13, "points");
+                if (claimed) {
+                    soup_.points.reserve(*claimed * 4);
+                    numbers.reserve(*claimed);
+                    continue;
+                }
             }
             if (soup_.dimension == 0) {
                 find_dimension();
@@ -166,10 +169,13 @@ private:
         std::optional<std::size_t> claimed;
         std::vector<std::int64_t> numbers;
         while (next_row("CONVEX")) {
-            if (numbers.empty() && !claimed && (claimed = count(29, "convexes"))) {
-                soup_.cells.reserve(*claimed * corners_);
-                numbers.reserve(*claimed);
-                continue;
+            if (numbers.empty() && !claimed) {
+                claimed = count(29, "convexes");
+                if (claimed) {
+                    soup_.cells.reserve(*claimed * corners_);
+                    numbers.reserve(*claimed);
+                    continue;
+                }
             }
             numbers.push_back(in_.parsed<std::uint32_t>("a convex's number"));
             if (const std::string_view found = in_.word(); found != kind) {

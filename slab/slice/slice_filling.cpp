@@ -48,8 +48,9 @@ template<int N, class TimeOf>
 void cut_simplex(const Level& level, const Simplex<N>& simplex, Index number, const TimeOf& time_of,
                  std::vector<CutPiece<N>>& pieces) {
     const auto above = [&](Index v) { return level.above(time_of(v)); };
-    const auto k = static_cast<int>(std::count_if(simplex.begin(), simplex.end(), std::not_fn(above)));
-    const int m = N + 1 - k;
+    const auto k =
+        static_cast<std::size_t>(std::count_if(simplex.begin(), simplex.end(), std::not_fn(above)));
+    const std::size_t m = simplex.size() - k;
     if (k == 0 || m == 0) {
         return;
     }
@@ -60,17 +61,16 @@ void cut_simplex(const Level& level, const Simplex<N>& simplex, Index number, co
     });
     // A path has a bit for each step, which is set where the step is among the vertices below.
     for (unsigned path = 0; path < 1U << (N - 1); ++path) {
-        if (std::popcount(path) != k - 1) {
+        if (static_cast<std::size_t>(std::popcount(path)) != k - 1) {
             continue;
         }
         // The orientation: of the vertices in this order, of the steps as an order of the axes.
         bool odd = odd_order != ((m - 1) % 2 != 0);
         CutPiece<N> piece{{}, number};
-        int i = 0;
-        int j = 0;
-        for (int corner = 0; corner < N; ++corner) {
-            piece.corners[static_cast<std::size_t>(corner)] = level.cut_edge(
-                vertices[static_cast<std::size_t>(i)], vertices[static_cast<std::size_t>(k + j)], time_of);
+        std::size_t i = 0;
+        std::size_t j = 0;
+        for (std::size_t corner = 0; corner < N; ++corner) {
+            piece.corners[corner] = level.cut_edge(vertices[i], vertices[k + j], time_of);
             if ((path >> corner & 1U) != 0) {
                 odd = odd != (j % 2 != 0);
                 ++i;

@@ -98,6 +98,7 @@ class Filling(ProgramTest):
             self.assertLess(abs(float(volume) / told["volume"] - 1), 1e-12)
 
     @unittest.skipUnless(has("getfem"), "no GetFEM")
+    @harness.long
     def test_what_getfem_saves_is_read(self):
         import getfem
         for case, split in ((ELLIPSOID, "A"), (CIRCLE, "centre")):
@@ -176,6 +177,7 @@ class Filling(ProgramTest):
         self.assertEqual(result.code, 2)
         self.assertIn("2D+t", result.err)
 
+    @harness.long
     def test_fillings_are_converted_and_told_of(self):
         for case, names in ((ELLIPSOID.format("C"), ("a.mfem", "b.h5", "c.mfem", "d.getfem")),
                             (CIRCLE.format("centre"), ("a.h5", "b.getfem", "c.msh", "d.vtu"))):
