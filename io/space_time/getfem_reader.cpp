@@ -198,7 +198,7 @@ private:
         const auto number = in_.parsed<std::uint32_t>("a vertex's number");
         const Index vertex = points_.find(number);
         if (vertex == no_index) {
-            in_.fail(fmt::format("convex {} has the point {}, which there is not", convex, number));
+            in_.fail(fmt::format("convex {} has the point {}, which does not exist", convex, number));
         }
         return vertex;
     }

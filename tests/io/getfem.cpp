@@ -144,7 +144,7 @@ TEST_CASE("Faults of a GetFEM mesh are told with their lines", "[io]") {
     refuses("GT_PK(3,1)", "GT_QK(3,1)", "line 22");
     refuses("GT_PK(3,1)", "GT_PK(3,2)", "convex 4 is of the kind");
     refuses("GT_PK(3,1)", "GT_PK(4,1)", "convex 4 is of the kind");
-    refuses("3  7  8  9", "3  7  8  10", "convex 4 has the point 10, which there is not");
+    refuses("3  7  8  9", "3  7  8  10", "convex 4 has the point 10, which does not exist");
     refuses("3  7  8  9", "3  7  8", "line 23");
     refuses("3  7  8  9", "3  7  8  9  2", "CONVEX or END was expected");
     refuses("CONVEX 1", "CONVEX 4", "two convexes have the number 4");
