@@ -5,6 +5,7 @@
 #include "slabhull/core/child_process.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/progress.h"
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/study/study.h"
 
@@ -114,11 +115,26 @@ ChildAnswer in_child(const std::function<std::string()>& job) {
     }
 }
 
+/// Removes what a process that was ended, or earlier runs, left beside a hull's file.
+void remove_parts(const std::optional<std::filesystem::path>& hull_file) {
+    if (hull_file) {
+        io::remove_stale_parts(hull_file->parent_path());
+    }
+}
+
 StudyRow study_alone(const Case& the_case, const std::optional<std::filesystem::path>& hull_file) {
-    const ChildAnswer answer = in_child([&] { return row_as_text(study_level(the_case, hull_file)); });
+    remove_parts(hull_file);
+    ChildAnswer answer;
+    try {
+        answer = in_child([&] { return row_as_text(study_level(the_case, hull_file)); });
+    } catch (const Interrupted&) {
+        remove_parts(hull_file);
+        throw;
+    }
     const std::string where = fmt::format("{}, level {}, split {}", the_case.experiment, the_case.level,
                                           split_name(the_case.split));
     if (answer.end.signal != 0) {
+        remove_parts(hull_file);
         throw GeometryError(
             fmt::format("{}: its process was ended by signal {}; if memory was short, --levels with "
                         "a lower last one helps",

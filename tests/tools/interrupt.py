@@ -7,7 +7,7 @@ import signal
 import subprocess
 import time
 
-from harness import PROGRAM, SANITIZED, ProgramTest, main, slabhull
+from harness import PROGRAM, SANITIZED, ProgramTest, long, main, slabhull
 
 CASE = """
 dimension = {dimension}
@@ -94,6 +94,16 @@ class Interrupt(ProgramTest):
         out, _ = self.build(case)
         run = self.start("check", out / "slab_0000.vtu")
         self.stop(run, signal.SIGINT, 0.1)
+
+    @long
+    def test_a_study_leaves_no_part_of_the_hull_that_it_was_writing(self):
+        out = self.dir / "study"
+        for number in (signal.SIGINT, signal.SIGTERM):
+            run = self.start("study", "ellipsoid", "--levels", "2-4", "--hulls", "--out", out)
+            while run.poll() is None and not self.left_over(out):
+                time.sleep(0.001)
+            self.assertIsNotNone(self.stop(run, number, 0))
+            self.assertEqual(self.left_over(out), [])
 
     def test_a_signal_that_is_ignored_stays_ignored(self):
         case = self.case(CASE.format(dimension=2, experiment="circle", level=1, slabs=20, layers=4))
