@@ -107,9 +107,34 @@ private:
         return false;
     }
 
+    struct Rows {
+        std::optional<std::size_t> claimed;
+        std::vector<std::int64_t> numbers;
+    };
+
+    /// Reads the rows of a section: read_row() what stands behind the keyword, which returns the row's
+    /// number. The count that the section may begin with goes to reserve().
+    template<class Reserve, class ReadRow>
+    Rows read_rows(std::string_view keyword, std::size_t least_size, const char* what, const Reserve& reserve,
+                   const ReadRow& read_row) {
+        Rows rows;
+        while (next_row(keyword)) {
+            if (rows.numbers.empty() && !rows.claimed) {
+                rows.claimed = count(least_size, what);
+                if (rows.claimed) {
+                    reserve(*rows.claimed);
+                    rows.numbers.reserve(*rows.claimed);
+                    continue;
+                }
+            }
+            rows.numbers.push_back(read_row());
+        }
+        return rows;
+    }
+
     /// The numbers of all rows, each different.
-    TagIndex numbered(const std::vector<std::int64_t>& numbers, std::optional<std::size_t> claimed,
-                      const char* what) {
+    TagIndex numbered(const Rows& rows, const char* what) {
+        const auto& [claimed, numbers] = rows;
         if (claimed && *claimed != numbers.size()) {
             in_.fail(fmt::format("{} {} were announced, but there are {}", *claimed, what, numbers.size()));
         }
@@ -124,30 +149,24 @@ private:
     void read_points() {
         in_.require(soup_.points.empty(), "a second list of points");
         expect("LIST");
-        std::optional<std::size_t> claimed;
-        std::vector<std::int64_t> numbers;
-        while (next_row("POINT")) {
-            if (numbers.empty() && !claimed) {
-                claimed = count(13, "points");
-                if (claimed) {
-                    soup_.points.reserve(*claimed * 4);
-                    numbers.reserve(*claimed);
-                    continue;
-                }
-            }
-            if (soup_.dimension == 0) {
-                find_dimension();
-            }
-            numbers.push_back(in_.parsed<std::uint32_t>("a point's number"));
-            const std::size_t at = soup_.points.size();
-            soup_.points.resize(at + static_cast<std::size_t>(soup_.dimension));
-            in_.numbers(soup_.points.data() + at, static_cast<std::size_t>(soup_.dimension),
-                        "a point's coordinates");
-        }
+        const auto reserve = [&](std::size_t points) { soup_.points.reserve(points * 4); };
+        const Rows rows = read_rows("POINT", 13, "points", reserve, [&] { return read_point(); });
         expect("POINTS");
         expect("LIST");
-        in_.require(!numbers.empty(), "there are no points");
-        points_ = numbered(numbers, claimed, "points");
+        in_.require(!rows.numbers.empty(), "there are no points");
+        points_ = numbered(rows, "points");
+    }
+
+    std::int64_t read_point() {
+        if (soup_.dimension == 0) {
+            find_dimension();
+        }
+        const auto number = in_.parsed<std::uint32_t>("a point's number");
+        const std::size_t at = soup_.points.size();
+        const auto size = static_cast<std::size_t>(soup_.dimension);
+        soup_.points.resize(at + size);
+        in_.numbers(soup_.points.data() + at, size, "a point's coordinates");
+        return number;
     }
 
     void find_dimension() {
@@ -166,32 +185,26 @@ private:
         in_.require(corners_ == 0, "a second list of convexes");
         corners_ = static_cast<std::size_t>(soup_.dimension) + 1;
         const std::string kind = fmt::format("'GT_PK({},1)'", soup_.dimension);
-        std::optional<std::size_t> claimed;
-        std::vector<std::int64_t> numbers;
-        while (next_row("CONVEX")) {
-            if (numbers.empty() && !claimed) {
-                claimed = count(29, "convexes");
-                if (claimed) {
-                    soup_.cells.reserve(*claimed * corners_);
-                    numbers.reserve(*claimed);
-                    continue;
-                }
-            }
-            numbers.push_back(in_.parsed<std::uint32_t>("a convex's number"));
-            if (const std::string_view found = in_.word(); found != kind) {
-                in_.fail(fmt::format("convex {} is of the kind {}; only simplices of the points' dimension, "
-                                     "{}, are read",
-                                     numbers.back(), told(found), kind));
-            }
-            for (std::size_t i = 0; i < corners_; ++i) {
-                soup_.cells.push_back(read_corner(numbers.back()));
-            }
-        }
+        const auto reserve = [&](std::size_t convexes) { soup_.cells.reserve(convexes * corners_); };
+        const Rows rows = read_rows("CONVEX", 29, "convexes", reserve, [&] { return read_convex(kind); });
         expect("MESH");
         expect("STRUCTURE");
         expect("DESCRIPTION");
-        convexes_ = numbered(numbers, claimed, "convexes");
+        convexes_ = numbered(rows, "convexes");
         region_of_face_.assign(soup_.cells.size(), -1);
+    }
+
+    std::int64_t read_convex(std::string_view kind) {
+        const auto number = in_.parsed<std::uint32_t>("a convex's number");
+        if (const std::string_view found = in_.word(); found != kind) {
+            in_.fail(fmt::format("convex {} is of the kind {}; only simplices of the points' dimension, "
+                                 "{}, are read",
+                                 number, told(found), kind));
+        }
+        for (std::size_t i = 0; i < corners_; ++i) {
+            soup_.cells.push_back(read_corner(number));
+        }
+        return number;
     }
 
     Index read_corner(std::int64_t convex) {

@@ -2,11 +2,15 @@
 #pragma once
 
 #include "slabhull/core/index.h"
+#include "slabhull/core/point.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <compare>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -51,22 +55,45 @@ bool collapsed(const Corners& corners) {
     return false;
 }
 
+/// Where a cut point lies, and how far along its edge: 0 at the lower vertex.
+template<int D>
+struct PlacedCut {
+    Point<D> point;
+    double share;
+};
+
+template<int D>
+PlacedCut<D> place_cut(const Level& level, const CutPoint& cut, std::span<const Point<D + 1>> points) {
+    const Point<D + 1>& a = points[cut.lower];
+    const Point<D + 1>& b = points[cut.upper];
+    PlacedCut<D> placed{{}, cut.lower == cut.upper ? 0.0 : (level.time - a[D]) / (b[D] - a[D])};
+    for (std::size_t k = 0; k < D; ++k) {
+        placed.point[k] = std::lerp(a[k], b[k], placed.share); // what stands still stays exactly where it is
+    }
+    return placed;
+}
+
 /// Cut points without repetition, in the order of their edges, and the number of each of the given ones.
 struct NumberedCutPoints {
     std::vector<CutPoint> points;
     std::vector<Index> number;
 };
 
-inline NumberedCutPoints number_cut_points(std::span<const CutPoint> given) {
+/// The corners of simplices of cut points, one simplex after the other.
+template<class Piece>
+NumberedCutPoints number_corners(const std::vector<Piece>& pieces) {
+    constexpr std::size_t corners = std::tuple_size_v<decltype(Piece::corners)>;
+    checked_index(pieces.size() * corners, "corners of a section");
     std::vector<std::pair<CutPoint, Index>> sorted;
-    sorted.reserve(given.size());
-    checked_index(given.size(), "corners of a section");
-    for (const CutPoint& point : given) {
-        sorted.emplace_back(point, static_cast<Index>(sorted.size()));
+    sorted.reserve(pieces.size() * corners);
+    for (const Piece& piece : pieces) {
+        for (const CutPoint& corner : piece.corners) {
+            sorted.emplace_back(corner, static_cast<Index>(sorted.size()));
+        }
     }
     std::sort(sorted.begin(), sorted.end());
     NumberedCutPoints out;
-    out.number.resize(given.size());
+    out.number.resize(sorted.size());
     for (const auto& [point, place] : sorted) {
         if (out.points.empty() || point != out.points.back()) {
             out.points.push_back(point);

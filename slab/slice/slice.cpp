@@ -89,12 +89,7 @@ private:
     /// Returns the number of each corner of each facet.
     std::vector<Index> add_points(Section<D>& section, const Level& level,
                                   const std::vector<CutFacet<D>>& facets) const {
-        std::vector<CutPoint> corners;
-        corners.reserve(facets.size() * D);
-        for (const CutFacet<D>& facet : facets) {
-            corners.insert(corners.end(), facet.corners.begin(), facet.corners.end());
-        }
-        NumberedCutPoints numbered = number_cut_points(corners);
+        NumberedCutPoints numbered = number_corners(facets);
         for (const CutPoint& point : numbered.points) {
             add_point(section, level, point);
         }
@@ -102,14 +97,8 @@ private:
     }
 
     void add_point(Section<D>& section, const Level& level, const CutPoint& cut) const {
-        const Point<D + 1>& a = hull_.points[cut.lower];
-        const Point<D + 1>& b = hull_.points[cut.upper];
+        section.surface.points.push_back(place_cut<D>(level, cut, hull_.points).point);
         const bool is_vertex = cut.lower == cut.upper;
-        const double s = is_vertex ? 0.0 : (level.time - a[D]) / (b[D] - a[D]);
-        Point<D>& point = section.surface.points.emplace_back();
-        for (std::size_t k = 0; k < D; ++k) {
-            point[k] = std::lerp(a[k], b[k], s); // what stands still stays exactly where it is
-        }
         section.vertex_ids.push_back(is_vertex && !vertex_id_.empty() ? vertex_id_[cut.lower] : -1);
         const bool on_track = !track_.empty() && track_[cut.lower] == track_[cut.upper];
         section.track_ids.push_back(on_track ? track_[cut.lower] : no_track);

@@ -135,12 +135,7 @@ private:
         if (pieces.empty()) {
             throw GeometryError{fmt::format("no cell of the filling crosses t = {}", level_.time)};
         }
-        std::vector<CutPoint> corners;
-        corners.reserve(pieces.size() * (D + 1));
-        for (const auto& piece : pieces) {
-            corners.insert(corners.end(), piece.corners.begin(), piece.corners.end());
-        }
-        NumberedCutPoints numbered = number_cut_points(corners);
+        NumberedCutPoints numbered = number_corners(pieces);
         cut_points_ = std::move(numbered.points);
         for (const CutPoint& point : cut_points_) {
             add_point(point);
@@ -154,14 +149,9 @@ private:
     }
 
     void add_point(const CutPoint& cut) {
-        const Point<D + 1>& a = filling_.points[cut.lower];
-        const Point<D + 1>& b = filling_.points[cut.upper];
-        const double share = cut.lower == cut.upper ? 0.0 : (level_.time - a[D]) / (b[D] - a[D]);
-        Point<D>& point = section_.points.emplace_back();
-        for (std::size_t x = 0; x < D; ++x) {
-            point[x] = std::lerp(a[x], b[x], share);
-        }
-        section_.edge.push_back({cut.lower, cut.upper, share});
+        const PlacedCut<D> placed = place_cut<D>(level_, cut, filling_.points);
+        section_.points.push_back(placed.point);
+        section_.edge.push_back({cut.lower, cut.upper, placed.share});
     }
 
     void add_boundary() {
