@@ -41,6 +41,7 @@ public:
         read_cap();
         read_fill();
         read_output();
+        read_adapt();
         read_check();
         root_.require_all_known();
         return std::move(case_);
@@ -308,13 +309,33 @@ private:
     void read_cap_reuse(KeyTable& table) {
         if (table.has("reuse")) {
             case_.cap_reuse =
-                table.choice<CapReuse>("reuse", {{"none", CapReuse::none}, {"move", CapReuse::move}});
+                table.choice<CapReuse>("reuse", {{"none", CapReuse::none},
+                                                        {"move", CapReuse::move},
+                                                        {"adapt", CapReuse::adapt}});
         }
         // Below the smallest angles that the meshers give: 7 degrees for D = 3, 20 for D = 2.
         case_.cap_reuse_angle = table.number_or("reuse_angle", case_.dimension == 3 ? 5 : 10);
         if (!(case_.cap_reuse_angle >= 0 && case_.cap_reuse_angle <= 60)) {
             table.fail("reuse_angle", "an angle from 0 to 60 degrees");
         }
+    }
+
+    void read_adapt() {
+        if (!root_.has("adapt")) {
+            return;
+        }
+        if (case_.cap_reuse != CapReuse::adapt) {
+            root_.fail("adapt", "[cap] reuse = \"adapt\" with it");
+        }
+        KeyTable table = root_.table("adapt");
+        if (table.has("size")) {
+            case_.adapt_size = table.positive("size");
+        }
+        case_.adapt_angle = table.number_or("angle", case_.adapt_angle);
+        if (!(case_.adapt_angle >= 0 && case_.adapt_angle <= 30)) {
+            table.fail("angle", "an angle from 0 to 30 degrees");
+        }
+        table.require_all_known();
     }
 
     void read_check() {
@@ -346,9 +367,9 @@ private:
         }
         if (fill.method == FillMethod::tetgen) {
             read_unstructured(table, fill.unstructured);
-        } else if (case_.cap_reuse != CapReuse::move) {
+        } else if (case_.cap_reuse == CapReuse::none) {
             root_.fail("fill",
-                       "[cap] reuse = \"move\" with it: only caps that are one mesh moved are filled");
+                       "[cap] reuse = \"move\" or \"adapt\" with it: caps that are meshed anew are not filled");
         }
         if (table.has("formats")) {
             fill.formats.clear();

@@ -41,6 +41,9 @@ public:
         settings_.cap = cap_options(case_);
         settings_.reuse = case_.cap_reuse;
         settings_.reuse_angle = case_.cap_reuse_angle;
+        settings_.adapt.size = std::min(case_.adapt_size, case_.cap_size);
+        settings_.adapt.growth = case_.cap_growth;
+        settings_.adapt.angle = case_.adapt_angle;
         for (const auto& [patch, spec] : case_.motions) {
             const PatchNumber number = number_of(boundary_.patches(), patch, "motion");
             try {

@@ -85,6 +85,20 @@ const char* mesher_name(const Case& the_case) {
     return the_case.cap_mesher == SolidMesher::hxt ? "hxt" : "tetgen";
 }
 
+const char* reuse_name(CapReuse reuse) {
+    return reuse == CapReuse::none ? "none" : reuse == CapReuse::move ? "move" : "adapt";
+}
+
+Json as_json(const AdaptReport& report) {
+    return {{"splits", report.splits},
+            {"collapses", report.collapses},
+            {"flips", report.flips},
+            {"moved", report.moved},
+            {"refused", report.refused},
+            {"edge_length_ratio", {report.shortest_ratio, report.longest_ratio}},
+            {"smallest_angle", report.smallest_angle}};
+}
+
 Json settings_as_json(const Case& the_case) {
     return {{"title", the_case.title},
             {"dimension", the_case.dimension},
@@ -104,7 +118,7 @@ Json settings_as_json(const Case& the_case) {
             {"cap_size", std::isfinite(the_case.cap_size) ? Json(the_case.cap_size) : Json()},
             {"cap_growth", the_case.cap_growth},
             {"cap_quality", the_case.cap_quality},
-            {"cap_reuse", the_case.cap_reuse == CapReuse::move ? "move" : "none"},
+            {"cap_reuse", reuse_name(the_case.cap_reuse)},
             {"cap_reuse_angle", the_case.cap_reuse_angle},
             {"cap_order", the_case.cap_curve_order ? "curve" : "mesher"},
             {"check_embedding", the_case.check_embedding}};
@@ -318,7 +332,10 @@ private:
             return std::nullopt;
         }
         const double before = clock.total();
-        Filled filled{march ? fill_slab(slab.hull, clock) : fill_by_tetgen(slab.hull, clock), {}};
+        Filled filled{!march         ? fill_by_tetgen(slab.hull, clock)
+                      : slab.adapted ? fill_adapted(slab.hull, slab.adapted->log, clock)
+                                     : fill_slab(slab.hull, clock),
+                      {}};
         const FillingReport checked = check_filling<D>(columns_of(filled.mesh), &slab.hull);
         clock.book("checking the filling");
         if (!checked.clean()) {
@@ -386,7 +403,10 @@ private:
             json["projection"][patch_name(slab.hull.patches, patch)] = {{"largest", moved.largest},
                                                                         {"mean", moved.mean}};
         }
-        json["cap"] = {{"made", slab.cap_moved ? "moved" : "meshed"}};
+        json["cap"] = {{"made", slab.adapted ? "adapted" : slab.cap_moved ? "moved" : "meshed"}};
+        if (slab.adapted) {
+            json["adapt"] = as_json(slab.adapted->report);
+        }
         if (!slab.cap_moved) {
             json["cap"]["blocks"] = slab.cap_blocks;
         }

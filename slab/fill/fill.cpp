@@ -164,7 +164,7 @@ Filling<D> fill_slab(const Hull<D>& hull, StageClock& clock) {
     clock.book("filling");
     std::vector<Index> bad = not_positive(filling);
     if (!bad.empty()) {
-        bad = mend_cells(std::move(bad), columns, filling);
+        bad = mend_cells(std::move(bad), columns.cells.size(), columns.layers(), filling);
     }
     if (!bad.empty()) {
         refuse_cells(bad, filling, columns, cones);

@@ -26,10 +26,10 @@ namespace {
 template<int D>
 class CellMender {
 public:
-    CellMender(const SlabColumns<D>& columns, Filling<D>& filling)
+    CellMender(std::size_t initial_cells, std::size_t layers, Filling<D>& filling)
         : filling_{filling}, levels_end_{static_cast<Index>(filling.points.size() - filling.steiner_points)},
-          time_scale_{layer_scale<D>(std::span{filling.facets}.first(columns.cells.size()), filling.points,
-                                     columns.layers(), filling.time)} {}
+          time_scale_{layer_scale<D>(std::span{filling.facets}.first(initial_cells), filling.points, layers,
+                                     filling.time)} {}
 
     /// Returns the simplices that are left.
     std::vector<Index> run(std::vector<Index> bad) {
@@ -217,8 +217,9 @@ std::vector<Index> not_positive(const Filling<D>& filling) {
 }
 
 template<int D>
-std::vector<Index> mend_cells(std::vector<Index> bad, const SlabColumns<D>& columns, Filling<D>& filling) {
-    return CellMender<D>{columns, filling}.run(std::move(bad));
+std::vector<Index> mend_cells(std::vector<Index> bad, std::size_t initial_cells, std::size_t layers,
+                              Filling<D>& filling) {
+    return CellMender<D>{initial_cells, layers, filling}.run(std::move(bad));
 }
 
 template<int D>
@@ -257,11 +258,11 @@ void refuse_cells(const std::vector<Index>& bad, const Filling<D>& filling, cons
 }
 
 template std::vector<Index> not_positive<2>(const Filling<2>&);
-template std::vector<Index> mend_cells<2>(std::vector<Index>, const SlabColumns<2>&, Filling<2>&);
+template std::vector<Index> mend_cells<2>(std::vector<Index>, std::size_t, std::size_t, Filling<2>&);
 template void refuse_cells<2>(const std::vector<Index>&, const Filling<2>&, const SlabColumns<2>&,
                               const ConeCells<2>&);
 template std::vector<Index> not_positive<3>(const Filling<3>&);
-template std::vector<Index> mend_cells<3>(std::vector<Index>, const SlabColumns<3>&, Filling<3>&);
+template std::vector<Index> mend_cells<3>(std::vector<Index>, std::size_t, std::size_t, Filling<3>&);
 template void refuse_cells<3>(const std::vector<Index>&, const Filling<3>&, const SlabColumns<3>&,
                               const ConeCells<3>&);
 

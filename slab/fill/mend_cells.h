@@ -21,7 +21,8 @@ std::vector<Index> not_positive(const Filling<D>& filling);
 /// that end when all simplices are positive or nothing helps. Returns the simplices that are not positive
 /// yet. Cost: a pass over the filling per round, of which there are at most some thirty.
 template<int D>
-std::vector<Index> mend_cells(std::vector<Index> bad, const SlabColumns<D>& columns, Filling<D>& filling);
+std::vector<Index> mend_cells(std::vector<Index> bad, std::size_t initial_cells, std::size_t layers,
+                              Filling<D>& filling);
 
 /// Throws GeometryError naming cells of the cap and layers of simplices that are not positive.
 template<int D>

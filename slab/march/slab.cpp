@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/slab.h"
 
+#include "slab/adapt/adapt_cap.h"
 #include "slab/march/cap_reuse.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/progress.h"
@@ -15,6 +16,26 @@
 namespace slabhull {
 
 namespace {
+
+/// The terminating cap, and, of an adapted one, the column of each vertex.
+template<int D>
+struct NewCap {
+    CapMesh<D> mesh;
+    std::vector<Index> column;
+    std::size_t columns = 0; ///< in all
+};
+
+template<int D>
+NewCap<D> make_adapted_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const SlabSettings<D>& settings,
+                           Slab<D>& slab, StageClock& clock) {
+    enter_stage("cap adapting");
+    initial.give_tracks(tracks_throughout(initial.mesh()));
+    AdaptedCap<D> adapted = adapt_cap<D>(initial.mesh(), initial.tracks(), sweep, settings.adapt);
+    slab.cap_moved = true;
+    slab.adapted.emplace(Adaptation<D>{adapted.report, std::move(adapted.log)});
+    clock.book("cap adapting");
+    return {std::move(adapted.mesh), std::move(adapted.column), adapted.columns};
+}
 
 /// The terminating cap: moved where that is wanted and good enough, else meshed.
 template<int D>
@@ -117,24 +138,71 @@ void track_inside(CapToStitch<D>& initial, const Sweep<D>& sweep, const Slab<D>&
     }
 }
 
+/// Gives the vertices made by operations their tracks, and the terminating cap its own.
+template<int D>
+void track_adapted(const NewCap<D>& cap, IdCounter& ids, AdaptLog<D>& log, SpatialMesh<D>& terminating) {
+    TrackId track = ids.take(cap.columns - log.tracks.size());
+    while (log.tracks.size() < cap.columns) {
+        log.tracks.push_back(track++);
+    }
+    terminating.track_ids.resize(cap.column.size());
+    for (std::size_t v = 0; v < cap.column.size(); ++v) {
+        terminating.track_ids[v] = log.tracks[cap.column[v]];
+    }
+}
+
+template<int D>
+Sweep<D> checked_sweep(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std::vector<double> times,
+                       const SlabSettings<D>& settings, Slab<D>& slab, StageClock& clock) {
+    Sweep<D> sweep = clock.run("trajectories", [&] {
+        return sweep_slab(boundary, cap, std::move(times), settings, slab);
+    });
+    clock.run(boundary_check_stage, [&] {
+        require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
+    });
+    return sweep;
+}
+
+/// Sweeps the boundary and makes the terminating cap. Layers that follow the motion are doubled while cells of
+/// an adapted cap would be inside out.
+template<int D>
+std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boundary<D>& boundary,
+                                             const std::vector<double>& times, SlabSettings<D> settings,
+                                             Slab<D>& slab, StageClock& clock) {
+    for (;;) {
+        Sweep<D> sweep = checked_sweep<D>(boundary, initial.mesh(), times, settings, slab, clock);
+        if (settings.reuse != CapReuse::adapt) {
+            NewCap<D> cap{make_cap<D>(initial.mesh(), sweep, settings, slab, clock), {}, 0};
+            return {std::move(sweep), std::move(cap)};
+        }
+        try {
+            NewCap<D> cap = make_adapted_cap<D>(initial, sweep, settings, slab, clock);
+            return {std::move(sweep), std::move(cap)};
+        } catch (const InvertedCap&) {
+            const std::size_t doubled = 2 * sweep.layers();
+            if (!settings.layers.automatic || doubled > static_cast<std::size_t>(settings.layers.most)) {
+                throw;
+            }
+            settings.layers.at_least = static_cast<int>(doubled);
+        }
+    }
+}
+
 } // namespace
 
 template<int D>
 Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock) {
     Slab<D> slab;
-    Sweep<D> sweep = clock.run("trajectories", [&] {
-        return sweep_slab(boundary, initial.mesh(), std::move(times), settings, slab);
-    });
-    clock.run(boundary_check_stage, [&] {
-        require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
-    });
-    CapMesh<D> mesh = make_cap<D>(initial.mesh(), sweep, settings, slab, clock);
+    auto [sweep, cap] = sweep_and_cap<D>(initial, boundary, times, settings, slab, clock);
     clock.run("stitching", [&] {
         IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
-        SpatialMesh<D> terminating = terminating_cap<D>(sweep, std::move(mesh), ids);
+        SpatialMesh<D> terminating = terminating_cap<D>(sweep, std::move(cap.mesh), ids);
         if (settings.reuse == CapReuse::move) {
             track_inside<D>(initial, sweep, slab, terminating);
+        }
+        if (slab.adapted) {
+            track_adapted<D>(cap, ids, slab.adapted->log, terminating);
         }
         slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
         slab.terminating_facets.assign(boundary.facets().begin(), boundary.facets().end());

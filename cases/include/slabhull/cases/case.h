@@ -152,8 +152,11 @@ struct Case {
     CapReuse cap_reuse = CapReuse::none;
     double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
 
+    double adapt_size = std::numeric_limits<double>::infinity(); ///< bound on target lengths inside
+    double adapt_angle = 10;                                      ///< degrees aimed at
+
     bool check_embedding = true;  ///< hulls must be proven not to cross themselves
-    std::optional<FillSpec> fill; ///< needs CapReuse::move, unless by TetGen
+    std::optional<FillSpec> fill; ///< needs CapReuse::move or adapt, unless by TetGen
 
     std::filesystem::path directory = "out";
     std::vector<std::string> formats{"vtu", "msh"};

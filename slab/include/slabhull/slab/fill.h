@@ -2,6 +2,7 @@
 // Filling a hull with simplices, so that a solver can run on the slab.
 #pragma once
 
+#include "slabhull/slab/adapt.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/stage_clock.h"
 #include "slabhull/topology/filling.h"
@@ -25,6 +26,12 @@ template<int D>
 Filling<D> fill_slab(const Hull<D>& hull, StageClock& clock);
 template<int D>
 Filling<D> fill_slab(const Hull<D>& hull);
+
+/// Fills a slab whose cap was moved and changed (CapReuse::adapt): prisms where nothing changed in a layer,
+/// split as fill_slab() does, and a cone over each operation's cells. `log` is the slab's own. Throws as
+/// fill_slab() does. Cost: near-linear; some twice that of fill_slab().
+template<int D>
+Filling<D> fill_adapted(const Hull<D>& hull, const AdaptLog<D>& log, StageClock& clock);
 
 struct UnstructuredFill {
     /// Length that a unit of time counts for in spacings and shapes. 0: a layer's duration counts for about

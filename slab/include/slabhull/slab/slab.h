@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/slab/adapt.h"
 #include "slabhull/slab/cap_reuse.h"
 #include "slabhull/slab/layers.h"
 #include "slabhull/slab/stage_clock.h"
@@ -26,6 +27,7 @@ struct SlabSettings {
     CapOptions cap;
     CapReuse reuse = CapReuse::none;
     double reuse_angle = 5; ///< degrees: a moved cap with a smaller angle is meshed anew
+    AdaptOptions adapt;     ///< of CapReuse::adapt
 };
 
 /// One slab: its hull, which ends with the cap that the next one starts from.
@@ -37,6 +39,7 @@ struct Slab {
     bool cap_moved = false; ///< the terminating cap is the initial one, moved; else meshed anew ...
     std::optional<double> moved_angle;        ///< ... its smallest angle (degrees) after moving, if tried
     int cap_blocks = 1;                       ///< number of blocks if the cap was meshed
+    std::optional<Adaptation<D>> adapted;     ///< what was done to the cap with CapReuse::adapt
     LayerFit layers;                          ///< how well they follow the motion ...
     std::optional<std::size_t> layers_enough; ///< ... and a sufficient number if too few were given
     IdCounter next_ids;                       ///< the next slab's new ids start here

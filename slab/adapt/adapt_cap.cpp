@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/adapt/adapt_cap.h"
+
+#include "slab/adapt/adapt_mesh.h"
+#include "slab/adapt/adapt_round.h"
+#include "slab/adapt/cell_quality.h"
+#include "slab/adapt/vertex_smoother.h"
+#include "slabhull/core/progress.h"
+#include "slabhull/geometry/cap_motion.h"
+#include "slabhull/geometry/measures.h"
+#include "slabhull/geometry/size_field.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace slabhull {
+
+namespace {
+
+/// Adapts one cap.
+template<int D>
+class CapAdapter {
+public:
+    CapAdapter(const SpatialMesh<D>& initial, std::span<const TrackId> tracks, const Sweep<D>& sweep,
+               const AdaptOptions& options)
+        : sweep_{sweep}, options_{options},
+          spacing_{sweep.boundary.mean_edges(sweep.boundary.start())} {
+        open(initial, tracks);
+    }
+
+    AdaptedCap<D> run() {
+        note_level();
+        for (std::size_t layer = 0; layer < sweep_.layers(); ++layer) {
+            go_on();
+            move(layer);
+            change(layer);
+            note_level();
+        }
+        finish();
+        return std::move(result_);
+    }
+
+private:
+    /// Numbers the vertices by ascending track.
+    void open(const SpatialMesh<D>& initial, std::span<const TrackId> tracks) {
+        const std::size_t count = initial.points.size();
+        std::vector<Index> vertices(count);
+        std::iota(vertices.begin(), vertices.end(), Index{0});
+        std::sort(vertices.begin(), vertices.end(), [&](Index a, Index b) { return tracks[a] < tracks[b]; });
+        std::vector<Index> column_of(count);
+        for (std::size_t k = 0; k < count; ++k) {
+            column_of[vertices[k]] = static_cast<Index>(k);
+            mesh_.now.push_back(initial.points[vertices[k]]);
+            result_.log.tracks.push_back(tracks[vertices[k]]);
+        }
+        mesh_.column.resize(count);
+        std::iota(mesh_.column.begin(), mesh_.column.end(), Index{0});
+        mesh_.on_boundary.assign(count, 0);
+        for (const Index v : sweep_.boundary.mesh_vertices()) {
+            mesh_.boundary.push_back(column_of[v]);
+            mesh_.on_boundary[column_of[v]] = 1;
+        }
+        mesh_.cells = initial.cells;
+        for (Simplex<D>& cell : mesh_.cells) {
+            for (Index& v : cell) {
+                v = column_of[v];
+            }
+        }
+        mesh_.neighbors = initial.neighbors;
+        mesh_.find_cells_of_vertices();
+        result_.columns = static_cast<Index>(count);
+        result_.log.cells = mesh_.cells;
+        result_.log.times = sweep_.times;
+    }
+
+    void note_level() {
+        result_.log.columns.push_back(mesh_.column);
+        result_.log.places.push_back(mesh_.now);
+    }
+
+    void move(std::size_t layer) {
+        constexpr int most_passes = 6;
+        mesh_.before = mesh_.now;
+        mesh_.now = move_cap<D>(mesh_.before, mesh_.cells, mesh_.boundary, sweep_.positions[layer + 1]).points;
+        VertexSmoother<D> smoother{mesh_};
+        const double good = quality_of_angle(1.8 * options_.angle);
+        result_.report.moved += smoother.run(good);
+        for (int pass = 1; pass < most_passes && !smoother.inverted().empty(); ++pass) {
+            smoother.run(good);
+        }
+        if (const std::vector<Index> cells = smoother.inverted(); !cells.empty()) {
+            refuse(cells, layer);
+        }
+    }
+
+    [[noreturn]] void refuse(const std::vector<Index>& cells, std::size_t layer) const {
+        constexpr std::size_t most_named = 8;
+        std::vector<Entity> entities;
+        std::string names;
+        for (std::size_t k = 0; k < std::min(cells.size(), most_named); ++k) {
+            for (const Index v : mesh_.cells[cells[k]]) {
+                const Index column = mesh_.column[v];
+                if (column < result_.log.tracks.size()) {
+                    entities.push_back({"track", result_.log.tracks[column], {}});
+                }
+            }
+            const Point<D>& place = mesh_.now[mesh_.cells[cells[k]][0]];
+            names += fmt::format("{} ({:.6g})", k == 0 ? "" : ",", fmt::join(place, ", "));
+        }
+        throw InvertedCap{fmt::format("{} cells of the cap would be inside out between t = {} and {}, near{}; "
+                                      "more layers (time.layers) or shorter slabs (time.slabs) do, since each "
+                                      "layer then moves less",
+                                      cells.size(), sweep_.times[layer], sweep_.times[layer + 1], names),
+                          std::move(entities)};
+    }
+
+    SizeField<D> sizes_at(std::size_t level) const {
+        return {sweep_.positions[level], spacing_, {options_.growth, options_.size}};
+    }
+
+    void change(std::size_t layer) {
+        const std::vector<Cavity<D>> cavities =
+            choose_operations<D>(mesh_, {sweep_.times[layer], sweep_.times[layer + 1]}, sizes_at(layer + 1),
+                                 options_, result_.report);
+        mesh_.apply(cavities, result_.columns, result_.log);
+    }
+
+    /// The mesh with the swept vertices first.
+    void finish() {
+        const std::size_t count = mesh_.now.size();
+        std::vector<Index> number(count, no_index);
+        Index next = 0;
+        for (const Index v : mesh_.boundary) {
+            number[v] = next++;
+        }
+        for (Index& n : number) {
+            n = n == no_index ? next++ : n;
+        }
+        CapMesh<D>& cap = result_.mesh;
+        cap.points.resize(count);
+        result_.column.resize(count);
+        for (std::size_t v = 0; v < count; ++v) {
+            cap.points[number[v]] = mesh_.now[v];
+            result_.column[number[v]] = mesh_.column[v];
+        }
+        const auto measures = measure_solid<D>(mesh_.now, mesh_.cells);
+        result_.report.smallest_angle = measures.angles.smallest;
+        const auto ratios = length_ratios<D>(mesh_, sizes_at(sweep_.layers()));
+        result_.report.shortest_ratio = ratios[0];
+        result_.report.longest_ratio = ratios[1];
+        cap.cells = std::move(mesh_.cells);
+        for (Simplex<D>& cell : cap.cells) {
+            for (Index& v : cell) {
+                v = number[v];
+            }
+        }
+        cap.neighbors = std::move(mesh_.neighbors);
+    }
+
+    const Sweep<D>& sweep_;
+    const AdaptOptions& options_;
+    std::vector<double> spacing_; ///< of the boundary's vertices at the march's start
+    AdaptMesh<D> mesh_;
+    AdaptedCap<D> result_;
+};
+
+} // namespace
+
+template<int D>
+AdaptedCap<D> adapt_cap(const SpatialMesh<D>& initial, std::span<const TrackId> tracks,
+                        const Sweep<D>& sweep, const AdaptOptions& options) {
+    return CapAdapter<D>{initial, tracks, sweep, options}.run();
+}
+
+template AdaptedCap<2> adapt_cap<2>(const SpatialMesh<2>&, std::span<const TrackId>, const Sweep<2>&,
+                                    const AdaptOptions&);
+template AdaptedCap<3> adapt_cap<3>(const SpatialMesh<3>&, std::span<const TrackId>, const Sweep<3>&,
+                                    const AdaptOptions&);
+
+} // namespace slabhull

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slabhull/core/error.h"
+#include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/slab/adapt.h"
+#include "slabhull/slab/sweep.h"
+
+#include <span>
+#include <vector>
+
+namespace slabhull {
+
+/// A terminating cap made by moving the initial one and changing its connectivity layer by layer.
+template<int D>
+struct AdaptedCap {
+    CapMesh<D> mesh;           ///< swept vertices first, as a mesher gives them
+    std::vector<Index> column; ///< of each of its vertices
+    AdaptLog<D> log;           ///< `tracks` are those of the initial cap; later columns have none yet
+    Index columns = 0;         ///< how many there are
+    AdaptReport report;
+};
+
+/// A cap has cells that its motion turns inside out within a layer.
+class InvertedCap : public GeometryError {
+public:
+    using GeometryError::GeometryError;
+};
+
+/// Moves the initial cap from level to level (move_cap()), improves its vertices' places, and makes a round of
+/// operations in each layer. `tracks` are those of all its vertices. Throws InvertedCap naming the vertices of
+/// cells that cannot be kept positive.
+/// Cost: per layer that of move_cap(), two or three passes over the cells, and some 10 to 100 microseconds for
+/// each cell that asks for an operation. The same for any number of threads.
+template<int D>
+AdaptedCap<D> adapt_cap(const SpatialMesh<D>& initial, std::span<const TrackId> tracks,
+                        const Sweep<D>& sweep, const AdaptOptions& options);
+
+} // namespace slabhull

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/adapt/adapt_round.h"
+
+#include "core/pieces.h"
+#include "slab/adapt/cavity_apex.h"
+#include "slab/adapt/cavity_maker.h"
+#include "slab/adapt/cell_quality.h"
+#include "slabhull/core/parallel.h"
+#include "slabhull/core/vector.h"
+#include "slabhull/geometry/measures.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace slabhull {
+
+namespace {
+
+constexpr std::size_t items_per_scan = 1 << 13;
+
+/// What asks for an operation: an edge of the wrong length, or a cell of small angles.
+struct Wish {
+    double urgency; ///< above 1
+    Index first;    ///< the edge's vertices, ascending; or the cell and no_index
+    Index second;
+    double ratio; ///< the edge's length over its target
+
+    bool of_cell() const { return second == no_index; }
+};
+
+/// Target lengths at the vertices of a mesh.
+template<int D>
+class EdgeTargets {
+public:
+    EdgeTargets(const AdaptMesh<D>& mesh, const SizeField<D>& sizes) : mesh_{mesh}, at_(mesh.now.size()) {
+        parallel_for(at_.size(), items_per_scan, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) {
+                at_[v] = sizes(mesh.now[v]);
+            }
+        });
+    }
+
+    double ratio(Index a, Index b) const {
+        return 2 * distance(mesh_.now[a], mesh_.now[b]) / (at_[a] + at_[b]);
+    }
+    /// Length over target for a place that is no vertex's, near vertex a.
+    double ratio(Index a, const Point<D>& place) const { return distance(mesh_.now[a], place) / at_[a]; }
+
+private:
+    const AdaptMesh<D>& mesh_;
+    std::vector<double> at_;
+};
+
+template<int D>
+class RoundChooser {
+public:
+    RoundChooser(const AdaptMesh<D>& mesh, const std::array<double, 2>& times, const SizeField<D>& sizes,
+                 const AdaptOptions& options, AdaptReport& report)
+        : mesh_{mesh}, times_{times}, options_{options}, report_{report}, targets_{mesh, sizes}, maker_{mesh},
+          wanted_{quality_of_angle(1.8 * options.angle)}, bearable_{quality_of_angle(options.angle)},
+          taken_(mesh.cells.size(), 0) {}
+
+    std::vector<Cavity<D>> run() {
+        for (const Wish& wish : wishes()) {
+            if (std::optional<Cavity<D>> cavity = best_for(wish)) {
+                take(std::move(*cavity));
+            }
+        }
+        return std::move(chosen_);
+    }
+
+private:
+    std::vector<Wish> wishes() const {
+        std::vector<Wish> all = parallel_gather<Wish>(
+            mesh_.cells.size(), items_per_scan,
+            [&](std::size_t begin, std::size_t end, std::vector<Wish>& list) {
+                for (std::size_t c = begin; c < end; ++c) {
+                    add_wishes(static_cast<Index>(c), list);
+                }
+            });
+        std::sort(all.begin(), all.end(), [](const Wish& a, const Wish& b) {
+            return a.urgency != b.urgency ? a.urgency > b.urgency
+                                          : std::pair{a.first, a.second} < std::pair{b.first, b.second};
+        });
+        const auto same = [](const Wish& a, const Wish& b) {
+            return a.first == b.first && a.second == b.second;
+        };
+        all.erase(std::unique(all.begin(), all.end(), same), all.end());
+        return all;
+    }
+
+    void add_wishes(Index c, std::vector<Wish>& list) const {
+        const Simplex<D>& cell = mesh_.cells[c];
+        for (std::size_t i = 0; i <= D; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                const Index a = std::min(cell[i], cell[j]);
+                const Index b = std::max(cell[i], cell[j]);
+                const double ratio = targets_.ratio(a, b);
+                const double urgency = std::max(ratio / options_.longest, options_.shortest / ratio);
+                if (urgency > 1) {
+                    list.push_back({urgency, a, b, ratio});
+                }
+            }
+        }
+        if (const double quality = quality_of(c); quality < wanted_) {
+            list.push_back({wanted_ / std::max(quality, 1e-3 * wanted_), c, no_index, 0});
+        }
+    }
+
+    double quality_of(Index cell) const {
+        return cell_quality(corners_of<D, D>(mesh_.cells[cell], mesh_.now));
+    }
+
+    std::optional<Cavity<D>> best_for(const Wish& wish) {
+        if (wish.of_cell()) {
+            return taken_[wish.first] != 0 ? std::nullopt : better_cells(wish.first);
+        }
+        if (wish.ratio > 1) {
+            return admitted(maker_.split(wish.first, wish.second), false);
+        }
+        for (const auto& [ending, kept] : {std::pair{wish.second, wish.first}, {wish.first, wish.second}}) {
+            if (auto cavity = admitted(maker_.collapse(ending, kept), false)) {
+                return cavity;
+            }
+        }
+        return std::nullopt;
+    }
+
+    /// The operation at a cell of small angles whose new cells are best.
+    std::optional<Cavity<D>> better_cells(Index c) {
+        std::optional<Cavity<D>> best;
+        const auto consider = [&](std::optional<Cavity<D>>&& cavity) {
+            if (cavity && (!best || cavity->quality > best->quality)) {
+                if (auto admissible = admitted(std::move(cavity), true)) {
+                    best = std::move(admissible);
+                }
+            }
+        };
+        const Simplex<D> cell = mesh_.cells[c];
+        for (std::size_t i = 0; i <= D; ++i) {
+            consider(maker_.flip_facet(c, i));
+            for (std::size_t j = 0; j <= D; ++j) {
+                if (j < i && D == 3) {
+                    consider(maker_.remove_edge(cell[i], cell[j]));
+                }
+                if (j != i) {
+                    consider(maker_.collapse(cell[i], cell[j]));
+                }
+                if (j < i) {
+                    consider(maker_.split(cell[i], cell[j]));
+                }
+            }
+        }
+        return best;
+    }
+
+    /// The cavity if it may be taken. `for_quality`: it must improve the worst cell notably; others must not
+    /// make cells of smaller angles than there were, unless these are good.
+    std::optional<Cavity<D>> admitted(std::optional<Cavity<D>>&& cavity, bool for_quality) {
+        constexpr double notably = 1.1;
+        if (!cavity) {
+            return std::nullopt;
+        }
+        const double least = for_quality ? notably * cavity->quality_before
+                                         : std::min(cavity->quality_before, bearable_);
+        const bool free = std::none_of(cavity->removed.begin(), cavity->removed.end(),
+                                       [&](Index cell) { return taken_[cell] != 0; });
+        if (!free || !(cavity->quality >= least) || !keeps_lengths(*cavity)) {
+            return std::nullopt;
+        }
+        if (!find_apex(mesh_, times_, *cavity)) {
+            ++report_.refused;
+            return std::nullopt;
+        }
+        return std::move(cavity);
+    }
+
+    /// Whether no new edge has a wrong length.
+    bool keeps_lengths(const Cavity<D>& cavity) const {
+        const double longest = std::max(options_.longest, cavity.kind == OperationKind::flip
+                                                              ? longest_of(cavity)
+                                                              : options_.longest);
+        for (const Simplex<D>& cell : cavity.added) {
+            for (std::size_t i = 0; i <= D; ++i) {
+                for (std::size_t j = 0; j < i; ++j) {
+                    if (!keeps_length(cavity, cell[i], cell[j], longest)) {
+                        return false;
+                    }
+                }
+            }
+        }
+        return true;
+    }
+
+    bool keeps_length(const Cavity<D>& cavity, Index a, Index b, double longest) const {
+        constexpr Index made = Cavity<D>::new_vertex;
+        if (a == made || b == made) {
+            constexpr double share = 0.75; // of the shortest: the next rounds do the rest
+            return targets_.ratio(a == made ? b : a, cavity.new_place) > share * options_.shortest;
+        }
+        return cavity.kind == OperationKind::split || !(targets_.ratio(a, b) > longest) ||
+               was_edge(cavity, a, b);
+    }
+
+    double longest_of(const Cavity<D>& cavity) const {
+        double longest = 0;
+        for (const Index c : cavity.removed) {
+            for (std::size_t i = 0; i <= D; ++i) {
+                for (std::size_t j = 0; j < i; ++j) {
+                    longest = std::max(longest, targets_.ratio(mesh_.cells[c][i], mesh_.cells[c][j]));
+                }
+            }
+        }
+        return longest;
+    }
+
+    bool was_edge(const Cavity<D>& cavity, Index a, Index b) const {
+        return std::any_of(cavity.removed.begin(), cavity.removed.end(), [&](Index c) {
+            return place_in<D>(mesh_.cells[c], a) <= D && place_in<D>(mesh_.cells[c], b) <= D;
+        });
+    }
+
+    void take(Cavity<D>&& cavity) {
+        for (const Index cell : cavity.removed) {
+            taken_[cell] = 1;
+        }
+        std::size_t& count = cavity.kind == OperationKind::split      ? report_.splits
+                             : cavity.kind == OperationKind::collapse ? report_.collapses
+                                                                      : report_.flips;
+        ++count;
+        chosen_.push_back(std::move(cavity));
+    }
+
+    const AdaptMesh<D>& mesh_;
+    std::array<double, 2> times_;
+    const AdaptOptions& options_;
+    AdaptReport& report_;
+    EdgeTargets<D> targets_;
+    CavityMaker<D> maker_;
+    double wanted_;   ///< quality below which a cell asks for an operation
+    double bearable_; ///< quality that an operation for lengths may leave
+    std::vector<std::uint8_t> taken_; ///< of each cell: whether a chosen operation removes it
+    std::vector<Cavity<D>> chosen_;
+};
+
+} // namespace
+
+template<int D>
+std::vector<Cavity<D>> choose_operations(const AdaptMesh<D>& mesh, const std::array<double, 2>& times,
+                                         const SizeField<D>& sizes, const AdaptOptions& options,
+                                         AdaptReport& report) {
+    return RoundChooser<D>{mesh, times, sizes, options, report}.run();
+}
+
+template<int D>
+std::array<double, 2> length_ratios(const AdaptMesh<D>& mesh, const SizeField<D>& sizes) {
+    const EdgeTargets<D> targets{mesh, sizes};
+    std::array<double, 2> found{std::numeric_limits<double>::infinity(), 0};
+    for (const Simplex<D>& cell : mesh.cells) {
+        for (std::size_t i = 0; i <= D; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                if (mesh.on_boundary[cell[i]] == 0 || mesh.on_boundary[cell[j]] == 0) {
+                    const double ratio = targets.ratio(cell[i], cell[j]);
+                    found = {std::min(found[0], ratio), std::max(found[1], ratio)};
+                }
+            }
+        }
+    }
+    return found;
+}
+
+template std::vector<Cavity<2>> choose_operations<2>(const AdaptMesh<2>&, const std::array<double, 2>&,
+                                                     const SizeField<2>&, const AdaptOptions&, AdaptReport&);
+template std::vector<Cavity<3>> choose_operations<3>(const AdaptMesh<3>&, const std::array<double, 2>&,
+                                                     const SizeField<3>&, const AdaptOptions&, AdaptReport&);
+template std::array<double, 2> length_ratios<2>(const AdaptMesh<2>&, const SizeField<2>&);
+template std::array<double, 2> length_ratios<3>(const AdaptMesh<3>&, const SizeField<3>&);
+
+} // namespace slabhull

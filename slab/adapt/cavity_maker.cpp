@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/adapt/cavity_maker.h"
+
+#include "slab/adapt/cell_quality.h"
+#include "slabhull/core/vector.h"
+#include "slabhull/geometry/measures.h"
+#include "slabhull/topology/spatial_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace slabhull {
+
+template<int D>
+double CavityMaker<D>::quality_of(const Simplex<D>& cell, const Cavity<D>& cavity) const {
+    std::array<Point<D>, D + 1> corners;
+    for (std::size_t k = 0; k <= D; ++k) {
+        corners[k] = cell[k] == Cavity<D>::new_vertex ? cavity.new_place : mesh_.now[cell[k]];
+    }
+    return cell_quality(corners);
+}
+
+/// Finds the qualities; none if a new cell is not positive.
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::finished(Cavity<D>&& cavity) const {
+    cavity.quality = least_quality(cavity, 0);
+    if (!(cavity.quality > 0)) {
+        return std::nullopt;
+    }
+    cavity.quality_before = std::numeric_limits<double>::infinity();
+    for (const Index cell : cavity.removed) {
+        cavity.quality_before =
+            std::min(cavity.quality_before, cell_quality(corners_of<D, D>(mesh_.cells[cell], mesh_.now)));
+    }
+    return std::move(cavity);
+}
+
+template<int D>
+Point<D> CavityMaker<D>::half_way(Index v) const {
+    return times(0.5, plus(mesh_.before[v], mesh_.now[v]));
+}
+
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::split(Index a, Index b) {
+    Cavity<D> cavity;
+    if (!mesh_.gather_edge_star(a, b, cavity.removed)) {
+        return std::nullopt;
+    }
+    cavity.kind = OperationKind::split;
+    cavity.new_place = times(0.5, plus(mesh_.now[a], mesh_.now[b]));
+    cavity.has_new_vertex = true;
+    cavity.kernel = times(0.5, plus(half_way(a), half_way(b)));
+    for (const Index cell : cavity.removed) {
+        for (const Index end : {a, b}) {
+            cavity.added.push_back(mesh_.cells[cell]);
+            cavity.added.back()[place_in<D>(mesh_.cells[cell], end)] = Cavity<D>::new_vertex;
+        }
+    }
+    improve_new_place(a, b, cavity);
+    return finished(std::move(cavity));
+}
+
+/// Moves the new vertex to raise the smallest quality of the new cells.
+template<int D>
+void CavityMaker<D>::improve_new_place(Index a, Index b, Cavity<D>& cavity) const {
+    constexpr double last_step = 0.02;
+    const double length = distance(mesh_.now[a], mesh_.now[b]);
+    double best = least_quality(cavity, -1);
+    for (double step = 0.1; step > last_step;) {
+        const Point<D> from = cavity.new_place;
+        Point<D> to = from;
+        for (std::size_t k = 0; k < 2 * D; ++k) {
+            cavity.new_place = from;
+            cavity.new_place[k / 2] += (k % 2 == 0 ? step : -step) * length;
+            if (const double value = least_quality(cavity, best); value > best) {
+                best = value;
+                to = cavity.new_place;
+            }
+        }
+        cavity.new_place = to;
+        step = to == from ? step / 2 : step;
+    }
+}
+
+/// The smallest quality of the new cells; if it is below `enough`, any value below that.
+template<int D>
+double CavityMaker<D>::least_quality(const Cavity<D>& cavity, double enough) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Simplex<D>& cell : cavity.added) {
+        least = std::min(least, quality_of(cell, cavity));
+        if (least < enough) {
+            break;
+        }
+    }
+    return least;
+}
+
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::collapse(Index ending, Index kept) {
+    if (mesh_.on_boundary[ending] != 0) {
+        return std::nullopt;
+    }
+    Cavity<D> cavity;
+    mesh_.gather_star(ending, cavity.removed);
+    cavity.kind = OperationKind::collapse;
+    cavity.ended = ending;
+    cavity.kernel = half_way(ending);
+    for (const Index cell : cavity.removed) {
+        if (place_in<D>(mesh_.cells[cell], kept) > D) {
+            cavity.added.push_back(mesh_.cells[cell]);
+            cavity.added.back()[place_in<D>(mesh_.cells[cell], ending)] = kept;
+        }
+    }
+    return finished(std::move(cavity));
+}
+
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::flip_facet(Index cell, std::size_t i) {
+    const Index across = mesh_.neighbors[cell][i];
+    if (across == no_index) {
+        return std::nullopt;
+    }
+    const Simplex<D>& corners = mesh_.cells[cell];
+    const Index beyond = mesh_.cells[across][place_in<D>(mesh_.neighbors[across], cell)];
+    Cavity<D> cavity;
+    cavity.kind = OperationKind::flip;
+    cavity.removed = {cell, across};
+    for (std::size_t k = 0; k <= D; ++k) {
+        if (k != i) { // the cell with corner k moved across the facet
+            cavity.added.push_back(corners);
+            cavity.added.back()[k] = beyond;
+            cavity.kernel = plus(cavity.kernel, times(1.0 / D, half_way(corners[k])));
+        }
+    }
+    return finished(std::move(cavity));
+}
+
+/// The vertices around an edge, in order: each cell of its star has the edge and two that follow one another,
+/// and (a, b, ring[k], ring[k + 1]) is positive.
+template<int D>
+bool CavityMaker<D>::order_ring(Index a, Index b, const std::vector<Index>& star,
+                                std::vector<Index>& ring) const {
+    std::vector<std::array<Index, 2>> steps;
+    for (const Index cell : star) {
+        const Simplex<D>& corners = mesh_.cells[cell];
+        std::array<std::size_t, D + 1> order{place_in<D>(corners, a), place_in<D>(corners, b)};
+        std::size_t n = 2;
+        for (std::size_t k = 0; k <= D; ++k) {
+            if (k != order[0] && k != order[1]) {
+                order[n++] = k;
+            }
+        }
+        bool odd = false;
+        for (std::size_t i = 0; i <= D; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                odd = odd != (order[j] > order[i]);
+            }
+        }
+        steps.push_back({corners[order[odd ? D : D - 1]], corners[order[odd ? D - 1 : D]]});
+    }
+    ring.assign(1, steps.front()[0]);
+    Index next = steps.front()[1];
+    while (next != ring.front() && ring.size() < steps.size()) {
+        ring.push_back(next);
+        const auto step =
+            std::find_if(steps.begin(), steps.end(), [&](const auto& s) { return s[0] == next; });
+        if (step == steps.end()) {
+            return false;
+        }
+        next = (*step)[1];
+    }
+    return next == ring.front() && ring.size() == steps.size();
+}
+
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::remove_edge(Index a, Index b) {
+    if constexpr (D == 3) {
+        Cavity<D> cavity;
+        std::vector<Index> ring;
+        if (!mesh_.gather_edge_star(a, b, cavity.removed) || cavity.removed.size() > most_around_edge ||
+            cavity.removed.size() < 3 || !order_ring(a, b, cavity.removed, ring)) {
+            return std::nullopt;
+        }
+        cavity.kind = OperationKind::flip;
+        cavity.kernel = times(0.5, plus(half_way(a), half_way(b)));
+        const std::size_t n = ring.size();
+        // best[i][j]: the largest least quality over triangulations of the polygon ring[i] .. ring[j]
+        std::array<std::array<double, most_around_edge>, most_around_edge> best{};
+        std::array<std::array<std::size_t, most_around_edge>, most_around_edge> middle{};
+        const auto pair_over = [&](std::size_t i, std::size_t k, std::size_t j) {
+            return std::array<Simplex<D>, 2>{Simplex<D>{ring[i], ring[k], ring[j], b},
+                                             Simplex<D>{ring[i], ring[j], ring[k], a}};
+        };
+        for (std::size_t length = 1; length < n; ++length) {
+            for (std::size_t i = 0; i + length < n; ++i) {
+                const std::size_t j = i + length;
+                best[i][j] = length == 1 ? std::numeric_limits<double>::infinity() : 0;
+                for (std::size_t k = i + 1; k < j; ++k) {
+                    double quality = std::min(best[i][k], best[k][j]);
+                    for (const Simplex<D>& cell : pair_over(i, k, j)) {
+                        quality = quality > best[i][j] ? std::min(quality, quality_of(cell, cavity)) : quality;
+                    }
+                    if (quality > best[i][j]) {
+                        best[i][j] = quality;
+                        middle[i][j] = k;
+                    }
+                }
+            }
+        }
+        if (!(best[0][n - 1] > 0)) {
+            return std::nullopt;
+        }
+        std::vector<std::array<std::size_t, 2>> parts{{0, n - 1}};
+        while (!parts.empty()) {
+            const auto [i, j] = parts.back();
+            parts.pop_back();
+            if (j - i > 1) {
+                const std::size_t k = middle[i][j];
+                for (const Simplex<D>& cell : pair_over(i, k, j)) {
+                    cavity.added.push_back(cell);
+                }
+                parts.push_back({i, k});
+                parts.push_back({k, j});
+            }
+        }
+        return finished(std::move(cavity));
+    } else {
+        return std::nullopt;
+    }
+}
+
+template class CavityMaker<2>;
+template class CavityMaker<3>;
+
+} // namespace slabhull
