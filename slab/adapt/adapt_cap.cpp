@@ -5,6 +5,7 @@
 #include "slab/adapt/adapt_round.h"
 #include "slab/adapt/cell_quality.h"
 #include "slab/adapt/vertex_smoother.h"
+#include "slabhull/core/parallel.h"
 #include "slabhull/core/progress.h"
 #include "slabhull/geometry/cap_motion.h"
 #include "slabhull/geometry/measures.h"
@@ -26,9 +27,9 @@ class CapAdapter {
 public:
     CapAdapter(const SpatialMesh<D>& initial, std::span<const TrackId> tracks, const Sweep<D>& sweep,
                const AdaptOptions& options)
-        : sweep_{sweep}, options_{options},
-          spacing_{sweep.boundary.mean_edges(sweep.boundary.start())} {
+        : sweep_{sweep}, options_{options} {
         open(initial, tracks);
+        set_targets();
     }
 
     AdaptedCap<D> run() {
@@ -76,6 +77,18 @@ private:
         result_.log.times = sweep_.times;
     }
 
+    /// Vertices keep their targets through the slab; new ones take those of their edge.
+    void set_targets() {
+        const std::vector<double> spacing = sweep_.boundary.mean_edges(sweep_.boundary.start());
+        const SizeField<D> sizes{sweep_.positions.front(), spacing, {options_.growth, options_.size}};
+        mesh_.target.resize(mesh_.now.size());
+        parallel_for(mesh_.target.size(), 1 << 13, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) {
+                mesh_.target[v] = sizes(mesh_.now[v]);
+            }
+        });
+    }
+
     void note_level() {
         result_.log.columns.push_back(mesh_.column);
         result_.log.places.push_back(mesh_.now);
@@ -88,10 +101,10 @@ private:
         VertexSmoother<D> smoother{mesh_};
         const double good = quality_of_angle(1.8 * options_.angle);
         result_.report.moved += smoother.run(good);
-        for (int pass = 1; pass < most_passes && !smoother.inverted().empty(); ++pass) {
+        for (int pass = 1; pass < most_passes && !smoother.unsound().empty(); ++pass) {
             smoother.run(good);
         }
-        if (const std::vector<Index> cells = smoother.inverted(); !cells.empty()) {
+        if (const std::vector<Index> cells = smoother.unsound(); !cells.empty()) {
             refuse(cells, layer);
         }
     }
@@ -117,14 +130,9 @@ private:
                           std::move(entities)};
     }
 
-    SizeField<D> sizes_at(std::size_t level) const {
-        return {sweep_.positions[level], spacing_, {options_.growth, options_.size}};
-    }
-
     void change(std::size_t layer) {
-        const std::vector<Cavity<D>> cavities =
-            choose_operations<D>(mesh_, {sweep_.times[layer], sweep_.times[layer + 1]}, sizes_at(layer + 1),
-                                 options_, result_.report);
+        const std::vector<Cavity<D>> cavities = choose_operations<D>(
+            mesh_, {sweep_.times[layer], sweep_.times[layer + 1]}, options_, result_.report);
         mesh_.apply(cavities, result_.columns, result_.log);
     }
 
@@ -148,7 +156,7 @@ private:
         }
         const auto measures = measure_solid<D>(mesh_.now, mesh_.cells);
         result_.report.smallest_angle = measures.angles.smallest;
-        const auto ratios = length_ratios<D>(mesh_, sizes_at(sweep_.layers()));
+        const auto ratios = length_ratios<D>(mesh_);
         result_.report.shortest_ratio = ratios[0];
         result_.report.longest_ratio = ratios[1];
         cap.cells = std::move(mesh_.cells);
@@ -162,7 +170,6 @@ private:
 
     const Sweep<D>& sweep_;
     const AdaptOptions& options_;
-    std::vector<double> spacing_; ///< of the boundary's vertices at the march's start
     AdaptMesh<D> mesh_;
     AdaptedCap<D> result_;
 };

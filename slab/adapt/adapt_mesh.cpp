@@ -56,6 +56,7 @@ void AdaptMesh<D>::add_vertices(std::span<const Cavity<D>> cavities, Index& next
         if (cavity.has_new_vertex) {
             now.push_back(cavity.new_place);
             before.push_back(cavity.new_place);
+            target.push_back(cavity.new_target);
             column.push_back(next_column++);
             on_boundary.push_back(0);
             cell_of_.push_back(no_index);
@@ -202,6 +203,7 @@ void AdaptMesh<D>::drop_vertices(std::span<const Cavity<D>> cavities) {
         }
         number[v] = next;
         now[next] = now[v];
+        target[next] = target[v];
         column[next] = column[v];
         on_boundary[next] = on_boundary[v];
         cell_of_[next] = cell_of_[v];
@@ -209,6 +211,7 @@ void AdaptMesh<D>::drop_vertices(std::span<const Cavity<D>> cavities) {
     }
     now.resize(next);
     before.resize(next);
+    target.resize(next);
     column.resize(next);
     on_boundary.resize(next);
     cell_of_.resize(next);

@@ -3,6 +3,7 @@
 
 #include "slabhull/core/array.h"
 #include "slabhull/core/point.h"
+#include "slabhull/core/vector.h"
 #include "slabhull/slab/adapt.h"
 
 #include <cstdint>
@@ -21,6 +22,7 @@ struct Cavity {
     std::vector<Index> removed;
     std::vector<Simplex<D>> added; ///< positive at the layer's end
     Point<D> new_place{};          ///< of the new vertex
+    double new_target = 0;         ///< the target length at it
     bool has_new_vertex = false;
     Index ended = no_index; ///< the vertex that ends
     Point<D> kernel{};      ///< a place at half time from which a cavity at rest sees all of its boundary
@@ -38,9 +40,15 @@ public:
     Array<Neighbors<D>> neighbors;
     Array<Point<D>> before; ///< places of the vertices at the start of the layer
     Array<Point<D>> now;    ///< and at its end
-    std::vector<Index> column;
-    std::vector<std::uint8_t> on_boundary; ///< of each vertex
-    std::vector<Index> boundary;           ///< the vertex that each of the boundary's vertices is
+    std::vector<double> target; ///< wanted length of edges at each vertex
+    std::vector<Index> column;  ///< of each vertex
+    std::vector<std::uint8_t> on_boundary;
+    std::vector<Index> boundary; ///< the vertex that each of the boundary's vertices is
+
+    /// Length over target of an edge at the layer's end.
+    double length_ratio(Index a, Index b) const {
+        return 2 * distance(now[a], now[b]) / (target[a] + target[b]);
+    }
 
     /// Finds a cell at each vertex. To be called when the arrays are filled.
     void find_cells_of_vertices();

@@ -31,36 +31,14 @@ struct Wish {
     bool of_cell() const { return second == no_index; }
 };
 
-/// Target lengths at the vertices of a mesh.
-template<int D>
-class EdgeTargets {
-public:
-    EdgeTargets(const AdaptMesh<D>& mesh, const SizeField<D>& sizes) : mesh_{mesh}, at_(mesh.now.size()) {
-        parallel_for(at_.size(), items_per_scan, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v) {
-                at_[v] = sizes(mesh.now[v]);
-            }
-        });
-    }
-
-    double ratio(Index a, Index b) const {
-        return 2 * distance(mesh_.now[a], mesh_.now[b]) / (at_[a] + at_[b]);
-    }
-    /// Length over target for a place that is no vertex's, near vertex a.
-    double ratio(Index a, const Point<D>& place) const { return distance(mesh_.now[a], place) / at_[a]; }
-
-private:
-    const AdaptMesh<D>& mesh_;
-    std::vector<double> at_;
-};
-
 template<int D>
 class RoundChooser {
 public:
-    RoundChooser(const AdaptMesh<D>& mesh, const std::array<double, 2>& times, const SizeField<D>& sizes,
-                 const AdaptOptions& options, AdaptReport& report)
-        : mesh_{mesh}, times_{times}, options_{options}, report_{report}, targets_{mesh, sizes}, maker_{mesh},
-          wanted_{quality_of_angle(1.8 * options.angle)}, bearable_{quality_of_angle(options.angle)},
+    RoundChooser(const AdaptMesh<D>& mesh, const std::array<double, 2>& times, const AdaptOptions& options,
+                 AdaptReport& report)
+        : mesh_{mesh}, times_{times}, options_{options}, report_{report}, maker_{mesh},
+          wanted_{quality_of_angle(1.8 * options.angle)}, wanted_at_least_{quality_of_angle(options.angle)},
+          bearable_{quality_of_angle(0.8 * options.angle)},
           taken_(mesh.cells.size(), 0) {}
 
     std::vector<Cavity<D>> run() {
@@ -98,7 +76,7 @@ private:
             for (std::size_t j = 0; j < i; ++j) {
                 const Index a = std::min(cell[i], cell[j]);
                 const Index b = std::max(cell[i], cell[j]);
-                const double ratio = targets_.ratio(a, b);
+                const double ratio = mesh_.length_ratio(a, b);
                 const double urgency = std::max(ratio / options_.longest, options_.shortest / ratio);
                 if (urgency > 1) {
                     list.push_back({urgency, a, b, ratio});
@@ -129,7 +107,7 @@ private:
         return std::nullopt;
     }
 
-    /// The operation at a cell of small angles whose new cells are best.
+    /// The operation at a cell of small angles whose new cells are best: a flip if one helps.
     std::optional<Cavity<D>> better_cells(Index c) {
         std::optional<Cavity<D>> best;
         const auto consider = [&](std::optional<Cavity<D>>&& cavity) {
@@ -142,10 +120,15 @@ private:
         const Simplex<D> cell = mesh_.cells[c];
         for (std::size_t i = 0; i <= D; ++i) {
             consider(maker_.flip_facet(c, i));
+            for (std::size_t j = 0; D == 3 && j < i; ++j) {
+                consider(maker_.remove_edge(cell[i], cell[j]));
+            }
+        }
+        if (best || !(quality_of(c) < wanted_at_least_)) {
+            return best;
+        }
+        for (std::size_t i = 0; i <= D; ++i) {
             for (std::size_t j = 0; j <= D; ++j) {
-                if (j < i && D == 3) {
-                    consider(maker_.remove_edge(cell[i], cell[j]));
-                }
                 if (j != i) {
                     consider(maker_.collapse(cell[i], cell[j]));
                 }
@@ -198,11 +181,15 @@ private:
     bool keeps_length(const Cavity<D>& cavity, Index a, Index b, double longest) const {
         constexpr Index made = Cavity<D>::new_vertex;
         if (a == made || b == made) {
-            constexpr double share = 0.75; // of the shortest: the next rounds do the rest
-            return targets_.ratio(a == made ? b : a, cavity.new_place) > share * options_.shortest;
+            constexpr double share = 0.5; // of the shortest: the next rounds do the rest
+            return ratio_to_new(cavity, a == made ? b : a) > share * options_.shortest;
         }
-        return cavity.kind == OperationKind::split || !(targets_.ratio(a, b) > longest) ||
+        return cavity.kind == OperationKind::split || !(mesh_.length_ratio(a, b) > longest) ||
                was_edge(cavity, a, b);
+    }
+
+    double ratio_to_new(const Cavity<D>& cavity, Index v) const {
+        return 2 * distance(mesh_.now[v], cavity.new_place) / (mesh_.target[v] + cavity.new_target);
     }
 
     double longest_of(const Cavity<D>& cavity) const {
@@ -210,7 +197,7 @@ private:
         for (const Index c : cavity.removed) {
             for (std::size_t i = 0; i <= D; ++i) {
                 for (std::size_t j = 0; j < i; ++j) {
-                    longest = std::max(longest, targets_.ratio(mesh_.cells[c][i], mesh_.cells[c][j]));
+                    longest = std::max(longest, mesh_.length_ratio(mesh_.cells[c][i], mesh_.cells[c][j]));
                 }
             }
         }
@@ -238,9 +225,9 @@ private:
     std::array<double, 2> times_;
     const AdaptOptions& options_;
     AdaptReport& report_;
-    EdgeTargets<D> targets_;
     CavityMaker<D> maker_;
-    double wanted_;   ///< quality below which a cell asks for an operation
+    double wanted_;          ///< quality below which a cell asks for a flip
+    double wanted_at_least_; ///< ... or for any operation
     double bearable_; ///< quality that an operation for lengths may leave
     std::vector<std::uint8_t> taken_; ///< of each cell: whether a chosen operation removes it
     std::vector<Cavity<D>> chosen_;
@@ -250,20 +237,18 @@ private:
 
 template<int D>
 std::vector<Cavity<D>> choose_operations(const AdaptMesh<D>& mesh, const std::array<double, 2>& times,
-                                         const SizeField<D>& sizes, const AdaptOptions& options,
-                                         AdaptReport& report) {
-    return RoundChooser<D>{mesh, times, sizes, options, report}.run();
+                                         const AdaptOptions& options, AdaptReport& report) {
+    return RoundChooser<D>{mesh, times, options, report}.run();
 }
 
 template<int D>
-std::array<double, 2> length_ratios(const AdaptMesh<D>& mesh, const SizeField<D>& sizes) {
-    const EdgeTargets<D> targets{mesh, sizes};
+std::array<double, 2> length_ratios(const AdaptMesh<D>& mesh) {
     std::array<double, 2> found{std::numeric_limits<double>::infinity(), 0};
     for (const Simplex<D>& cell : mesh.cells) {
         for (std::size_t i = 0; i <= D; ++i) {
             for (std::size_t j = 0; j < i; ++j) {
                 if (mesh.on_boundary[cell[i]] == 0 || mesh.on_boundary[cell[j]] == 0) {
-                    const double ratio = targets.ratio(cell[i], cell[j]);
+                    const double ratio = mesh.length_ratio(cell[i], cell[j]);
                     found = {std::min(found[0], ratio), std::max(found[1], ratio)};
                 }
             }
@@ -273,10 +258,10 @@ std::array<double, 2> length_ratios(const AdaptMesh<D>& mesh, const SizeField<D>
 }
 
 template std::vector<Cavity<2>> choose_operations<2>(const AdaptMesh<2>&, const std::array<double, 2>&,
-                                                     const SizeField<2>&, const AdaptOptions&, AdaptReport&);
+                                                     const AdaptOptions&, AdaptReport&);
 template std::vector<Cavity<3>> choose_operations<3>(const AdaptMesh<3>&, const std::array<double, 2>&,
-                                                     const SizeField<3>&, const AdaptOptions&, AdaptReport&);
-template std::array<double, 2> length_ratios<2>(const AdaptMesh<2>&, const SizeField<2>&);
-template std::array<double, 2> length_ratios<3>(const AdaptMesh<3>&, const SizeField<3>&);
+                                                     const AdaptOptions&, AdaptReport&);
+template std::array<double, 2> length_ratios<2>(const AdaptMesh<2>&);
+template std::array<double, 2> length_ratios<3>(const AdaptMesh<3>&);
 
 } // namespace slabhull

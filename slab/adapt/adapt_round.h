@@ -2,7 +2,6 @@
 #pragma once
 
 #include "slab/adapt/adapt_mesh.h"
-#include "slabhull/geometry/size_field.h"
 
 #include <array>
 #include <vector>
@@ -14,11 +13,10 @@ namespace slabhull {
 /// small angles. Each can be coned with positive volumes. Adds to the report what was refused.
 template<int D>
 std::vector<Cavity<D>> choose_operations(const AdaptMesh<D>& mesh, const std::array<double, 2>& times,
-                                         const SizeField<D>& sizes, const AdaptOptions& options,
-                                         AdaptReport& report);
+                                         const AdaptOptions& options, AdaptReport& report);
 
 /// Least and largest length of edges inside over their target at the layer's end.
 template<int D>
-std::array<double, 2> length_ratios(const AdaptMesh<D>& mesh, const SizeField<D>& sizes);
+std::array<double, 2> length_ratios(const AdaptMesh<D>& mesh);
 
 } // namespace slabhull

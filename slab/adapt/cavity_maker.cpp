@@ -50,6 +50,7 @@ std::optional<Cavity<D>> CavityMaker<D>::split(Index a, Index b) {
     }
     cavity.kind = OperationKind::split;
     cavity.new_place = times(0.5, plus(mesh_.now[a], mesh_.now[b]));
+    cavity.new_target = 0.5 * (mesh_.target[a] + mesh_.target[b]);
     cavity.has_new_vertex = true;
     cavity.kernel = times(0.5, plus(half_way(a), half_way(b)));
     for (const Index cell : cavity.removed) {

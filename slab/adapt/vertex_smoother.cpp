@@ -16,6 +16,7 @@ namespace slabhull {
 namespace {
 
 constexpr std::size_t cells_per_search = 1 << 14;
+constexpr double ample_share = 0.02; ///< of a cell's measure, for the parts of its prism
 
 /// All directions of a grid of 3^D points: to its neighbours.
 template<int D>
@@ -40,10 +41,9 @@ std::vector<Point<D>> directions() {
 
 /// Whether the staircase over a cell has positive volumes. Its m-th simplex has the volume, up to a factor, of
 /// the cell in space whose vertices before the m-th are at the layer's start, displaced as the m-th is, and
-/// whose others are at its end.
+/// whose others are at its end. `least_share`: of the cell's own measure.
 template<int D>
-bool VertexSmoother<D>::is_sound(Index cell) const {
-    constexpr double least_share = 0.02; // of the cell's own measure
+bool VertexSmoother<D>::is_sound(Index cell, double least_share) const {
     const Simplex<D>& corners = mesh_.cells[cell];
     Simplex<D> order = corners;
     std::sort(order.begin(), order.end());
@@ -65,7 +65,7 @@ bool VertexSmoother<D>::is_sound(Index cell) const {
 template<int D>
 double VertexSmoother<D>::value_of(Index cell, double enough) const {
     const double quality = cell_quality(corners_of<D, D>(mesh_.cells[cell], mesh_.now));
-    return quality > 0 && quality >= enough && !is_sound(cell) ? 0 : quality;
+    return quality > 0 && quality >= enough && !is_sound(cell, ample_share) ? 0 : quality;
 }
 
 template<int D>
@@ -81,10 +81,10 @@ double VertexSmoother<D>::around(double enough) const {
 }
 
 template<int D>
-std::vector<Index> VertexSmoother<D>::inverted() const {
-    return select(mesh_.cells.size(), [&](std::size_t c) {
-        return !(signed_measure<D>(corners_of<D, D>(mesh_.cells[c], mesh_.now)) > 0);
-    });
+std::vector<Index> VertexSmoother<D>::unsound() const {
+    constexpr double some_share = 1e-4;
+    return select(mesh_.cells.size(),
+                  [&](std::size_t c) { return !is_sound(static_cast<Index>(c), some_share); });
 }
 
 template<int D>

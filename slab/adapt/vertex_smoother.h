@@ -18,15 +18,15 @@ public:
     /// simplices without positive volume. Returns the number of vertices moved. Vertices are taken in order.
     std::size_t run(double wanted);
 
-    /// Cells that are not positive at the layer's end.
-    std::vector<Index> inverted() const;
+    /// Cells whose prism over the layer has simplices without positive volume.
+    std::vector<Index> unsound() const;
 
 private:
     bool improve(Index vertex, double wanted);
     /// The smallest value around a vertex, or any value below `enough` if it is.
     double around(double enough) const;
     double value_of(Index cell, double enough) const;
-    bool is_sound(Index cell) const;
+    bool is_sound(Index cell, double least_share) const;
 
     AdaptMesh<D>& mesh_;
     std::vector<Index> star_;
