@@ -76,7 +76,8 @@ void FaceLabels::give(std::size_t faces, SimplexBlock& block, PatchList& groups)
 }
 
 void SurfaceBuilder::start_tags() {
-    if (tags_.empty()) {
+    if (!numbers_faces_) {
+        numbers_faces_ = true; // the tags alone do not tell: there may be none yet
         tags_.resize(faces_);
         std::iota(tags_.begin(), tags_.end(), std::int64_t{0});
     }

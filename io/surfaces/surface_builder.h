@@ -62,7 +62,7 @@ public:
 
 private:
     void count_face(std::size_t triangles) {
-        if (!tags_.empty()) {
+        if (numbers_faces_) {
             tags_.insert(tags_.end(), triangles, static_cast<std::int64_t>(faces_));
         }
         ++faces_;
@@ -73,7 +73,8 @@ private:
     void label(Soup& soup) const;
 
     Array<Index> corners_;
-    Array<std::int64_t> tags_; ///< the file's numbers, from 0; empty while each face is a triangle
+    bool numbers_faces_ = false; ///< whether triangles have numbers of faces
+    Array<std::int64_t> tags_;   ///< the file's numbers, from 0
     std::size_t faces_ = 0;
     std::size_t polygons_ = 0;
     std::size_t pieces_ = 0; ///< triangles cut from polygons

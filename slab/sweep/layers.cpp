@@ -131,16 +131,6 @@ void require_sense(const LayerOptions& options) {
 
 } // namespace
 
-std::vector<double> even_levels(double begin, double end, std::size_t layers) {
-    const auto wanted = static_cast<double>(layers);
-    std::vector<double> times;
-    for (double layer = 0; layer < wanted; ++layer) {
-        times.push_back(begin + (end - begin) * layer / wanted);
-    }
-    times.push_back(end);
-    return times;
-}
-
 template<int D>
 MeasuredSweep<D> sweep_measured(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
                                 const PatchMotions<D>& motions, double motion_start,

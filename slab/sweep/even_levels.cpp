@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slabhull/slab/layers.h"
+
+namespace slabhull {
+
+std::vector<double> even_levels(double begin, double end, std::size_t layers) {
+    const auto wanted = static_cast<double>(layers);
+    std::vector<double> times;
+    for (double layer = 0; layer < wanted; ++layer) {
+        times.push_back(begin + (end - begin) * layer / wanted);
+    }
+    times.push_back(end);
+    return times;
+}
+
+} // namespace slabhull
