@@ -5,6 +5,7 @@
 #include "slabhull/cases/filling_files.h"
 #include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/report.h"
+#include "slabhull/topology/adjacency.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -42,6 +43,28 @@ bool is_of_fillings_only(const std::string& out, const std::string& to) {
     return name == "getfem" || name == "h5";
 }
 
+/// Takes the mesh's triangles as the outer facets, and the numbers of their groups as attributes, if there
+/// are as many as the tetrahedra have outer facets.
+void take_facets(const io::Soup& mesh, std::size_t outer_facets, io::SpaceTimeSoup& soup) {
+    const io::SimplexBlock& triangles = mesh.simplices[2];
+    const auto in_group = [](PatchNumber group) { return group > 0; };
+    if (triangles.size(2) == outer_facets && triangles.physical.size() == outer_facets &&
+        std::all_of(triangles.physical.begin(), triangles.physical.end(), in_group)) {
+        soup.facets.assign(triangles.vertices.begin(), triangles.vertices.end());
+        soup.facet_attribute.assign(triangles.physical.begin(), triangles.physical.end());
+    }
+}
+
+Array<std::int64_t> point_numbers(const io::Soup& mesh, const char* name) {
+    Array<std::int64_t> numbers;
+    if (const io::DataArray* data = mesh.find_point_data(name)) {
+        if (const auto* list = std::get_if<IntegerList>(&data->values)) {
+            numbers.assign(list->begin(), list->end());
+        }
+    }
+    return numbers;
+}
+
 /// Tetrahedra of points (x, y, t), as a filling's.
 io::SpaceTimeSoup read_tetrahedra(const std::string& in, const std::string& from) {
     const io::Soup mesh = read_named(in, from);
@@ -55,6 +78,9 @@ io::SpaceTimeSoup read_tetrahedra(const std::string& in, const std::string& from
     for (const Simplex<3>& cell : arrays.cells) {
         soup.cells.insert(soup.cells.end(), cell.begin(), cell.end());
     }
+    take_facets(mesh, build_adjacency<3>(arrays.cells, arrays.points.size()).defects.size(), soup);
+    soup.vertex_id = point_numbers(mesh, "vertex_id");
+    soup.track_id = point_numbers(mesh, "track_id");
     return soup;
 }
 

@@ -308,10 +308,8 @@ private:
 
     void read_cap_reuse(KeyTable& table) {
         if (table.has("reuse")) {
-            case_.cap_reuse =
-                table.choice<CapReuse>("reuse", {{"none", CapReuse::none},
-                                                        {"move", CapReuse::move},
-                                                        {"adapt", CapReuse::adapt}});
+            case_.cap_reuse = table.choice<CapReuse>(
+                "reuse", {{"none", CapReuse::none}, {"move", CapReuse::move}, {"adapt", CapReuse::adapt}});
         }
         // Below the smallest angles that the meshers give: 7 degrees for D = 3, 20 for D = 2.
         case_.cap_reuse_angle = table.number_or("reuse_angle", case_.dimension == 3 ? 5 : 10);
@@ -368,8 +366,9 @@ private:
         if (fill.method == FillMethod::tetgen) {
             read_unstructured(table, fill.unstructured);
         } else if (case_.cap_reuse == CapReuse::none) {
-            root_.fail("fill",
-                       "[cap] reuse = \"move\" or \"adapt\" with it: caps that are meshed anew are not filled");
+            root_.fail(
+                "fill",
+                "[cap] reuse = \"move\" or \"adapt\" with it: caps that are meshed anew are not filled");
         }
         if (table.has("formats")) {
             fill.formats.clear();

@@ -332,10 +332,7 @@ private:
             return std::nullopt;
         }
         const double before = clock.total();
-        Filled filled{!march         ? fill_by_tetgen(slab.hull, clock)
-                      : slab.adapted ? fill_adapted(slab.hull, slab.adapted->log, clock)
-                                     : fill_slab(slab.hull, clock),
-                      {}};
+        Filled filled{march ? fill_slab(slab, clock) : fill_by_tetgen(slab.hull, clock), {}};
         const FillingReport checked = check_filling<D>(columns_of(filled.mesh), &slab.hull);
         clock.book("checking the filling");
         if (!checked.clean()) {

@@ -52,13 +52,15 @@ int run(const Case& the_case, const heat::Problem<D>& problem, const Output& out
     SpatialMesh<D> cap = initial_cap<D>(the_case, ids, {}, clock);
     MarchState<D> state = march_from<D>(std::move(cap), the_case.start, ids);
     SlabSettings<D> settings = settings_of<D>(the_case, state.boundary);
-    settings.reuse = CapReuse::move; // so that slabs can be filled
-    settings.reuse_angle = 0;
+    if (settings.reuse == CapReuse::none) { // then slabs cannot be filled
+        settings.reuse = CapReuse::move;
+        settings.reuse_angle = 0;
+    }
     March<D> march{std::move(state), std::move(settings)};
     std::unordered_map<PersistentId, double> terminating;
     for (int k = 0; k < the_case.slabs; ++k) {
         Slab<D> slab = march.propose(the_case.level_times(k));
-        const Filling<D> filling = fill_slab(slab.hull);
+        const Filling<D> filling = fill_slab(slab);
         const std::vector<double> u =
             heat::solve(filling, heat::known_values(filling, problem, terminating), problem.source);
         fmt::print("slab {}: {} vertices, {} cells", k, filling.points.size(), filling.cells.size());

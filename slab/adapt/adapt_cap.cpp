@@ -97,7 +97,11 @@ private:
     void move(std::size_t layer) {
         constexpr int most_passes = 6;
         mesh_.before = mesh_.now;
-        mesh_.now = move_cap<D>(mesh_.before, mesh_.cells, mesh_.boundary, sweep_.positions[layer + 1]).points;
+        CapMotionOptions careful;
+        careful.tolerance = careful_tolerance;
+        mesh_.now =
+            move_cap<D>(mesh_.before, mesh_.cells, mesh_.boundary, sweep_.positions[layer + 1], careful)
+                .points;
         VertexSmoother<D> smoother{mesh_};
         const double good = quality_of_angle(1.8 * options_.angle);
         result_.report.moved += smoother.run(good);
@@ -123,11 +127,12 @@ private:
             const Point<D>& place = mesh_.now[mesh_.cells[cells[k]][0]];
             names += fmt::format("{} ({:.6g})", k == 0 ? "" : ",", fmt::join(place, ", "));
         }
-        throw InvertedCap{fmt::format("{} cells of the cap would be inside out between t = {} and {}, near{}; "
-                                      "more layers (time.layers) or shorter slabs (time.slabs) do, since each "
-                                      "layer then moves less",
-                                      cells.size(), sweep_.times[layer], sweep_.times[layer + 1], names),
-                          std::move(entities)};
+        throw InvertedCap{
+            fmt::format("{} cells of the cap would be inside out between t = {} and {}, near{}; "
+                        "more layers (time.layers) or shorter slabs (time.slabs) do, since each "
+                        "layer then moves less",
+                        cells.size(), sweep_.times[layer], sweep_.times[layer + 1], names),
+            std::move(entities)};
     }
 
     void change(std::size_t layer) {
@@ -177,8 +182,8 @@ private:
 } // namespace
 
 template<int D>
-AdaptedCap<D> adapt_cap(const SpatialMesh<D>& initial, std::span<const TrackId> tracks,
-                        const Sweep<D>& sweep, const AdaptOptions& options) {
+AdaptedCap<D> adapt_cap(const SpatialMesh<D>& initial, std::span<const TrackId> tracks, const Sweep<D>& sweep,
+                        const AdaptOptions& options) {
     return CapAdapter<D>{initial, tracks, sweep, options}.run();
 }
 

@@ -27,13 +27,13 @@ public:
     using GeometryError::GeometryError;
 };
 
-/// Moves the initial cap from level to level (move_cap()), improves its vertices' places, and makes a round of
-/// operations in each layer. `tracks` are those of all its vertices. Throws InvertedCap naming the vertices of
-/// cells that cannot be kept positive.
-/// Cost: per layer that of move_cap(), two or three passes over the cells, and some 10 to 100 microseconds for
-/// each cell that asks for an operation. The same for any number of threads.
+/// Moves the initial cap from level to level (move_cap()), improves its vertices' places, and makes a round
+/// of operations in each layer. `tracks` are those of all its vertices. Throws InvertedCap naming the
+/// vertices of cells that cannot be kept positive. Cost: per layer that of move_cap(), two or three passes
+/// over the cells, and some 10 to 100 microseconds for each cell that asks for an operation. The same for any
+/// number of threads.
 template<int D>
-AdaptedCap<D> adapt_cap(const SpatialMesh<D>& initial, std::span<const TrackId> tracks,
-                        const Sweep<D>& sweep, const AdaptOptions& options);
+AdaptedCap<D> adapt_cap(const SpatialMesh<D>& initial, std::span<const TrackId> tracks, const Sweep<D>& sweep,
+                        const AdaptOptions& options);
 
 } // namespace slabhull

@@ -38,8 +38,8 @@ class AdaptMesh {
 public:
     Array<Simplex<D>> cells; ///< positive at the start
     Array<Neighbors<D>> neighbors;
-    Array<Point<D>> before; ///< places of the vertices at the start of the layer
-    Array<Point<D>> now;    ///< and at its end
+    Array<Point<D>> before;     ///< places of the vertices at the start of the layer
+    Array<Point<D>> now;        ///< and at its end
     std::vector<double> target; ///< wanted length of edges at each vertex
     std::vector<Index> column;  ///< of each vertex
     std::vector<std::uint8_t> on_boundary;
@@ -58,8 +58,8 @@ public:
     /// The cells around an edge. Returns whether the edge is inside the domain.
     bool gather_edge_star(Index a, Index b, std::vector<Index>& star) const;
 
-    /// Replaces the cells of cavities that share none; new vertices get columns from `next_column`. Appends to
-    /// the log. Afterwards `before` is meaningless, and the vertices that ended are gone.
+    /// Replaces the cells of cavities that share none; new vertices get columns from `next_column`. Appends
+    /// to the log. Afterwards `before` is meaningless, and the vertices that ended are gone.
     void apply(std::span<const Cavity<D>> cavities, Index& next_column, AdaptLog<D>& log);
 
 private:

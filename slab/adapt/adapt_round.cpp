@@ -37,8 +37,8 @@ public:
     RoundChooser(const AdaptMesh<D>& mesh, const std::array<double, 2>& times, const AdaptOptions& options,
                  AdaptReport& report)
         : mesh_{mesh}, times_{times}, options_{options}, report_{report}, maker_{mesh},
-          wanted_{quality_of_angle(1.8 * options.angle)}, wanted_at_least_{quality_of_angle(options.angle)},
-          bearable_{quality_of_angle(0.8 * options.angle)},
+          wanted_{quality_of_angle(1.8 * options.angle)},
+          wanted_at_least_{quality_of_angle(options.angle)}, bearable_{quality_of_angle(0.8 * options.angle)},
           taken_(mesh.cells.size(), 0) {}
 
     std::vector<Cavity<D>> run() {
@@ -52,13 +52,13 @@ public:
 
 private:
     std::vector<Wish> wishes() const {
-        std::vector<Wish> all = parallel_gather<Wish>(
-            mesh_.cells.size(), items_per_scan,
-            [&](std::size_t begin, std::size_t end, std::vector<Wish>& list) {
-                for (std::size_t c = begin; c < end; ++c) {
-                    add_wishes(static_cast<Index>(c), list);
-                }
-            });
+        std::vector<Wish> all =
+            parallel_gather<Wish>(mesh_.cells.size(), items_per_scan,
+                                  [&](std::size_t begin, std::size_t end, std::vector<Wish>& list) {
+                                      for (std::size_t c = begin; c < end; ++c) {
+                                          add_wishes(static_cast<Index>(c), list);
+                                      }
+                                  });
         std::sort(all.begin(), all.end(), [](const Wish& a, const Wish& b) {
             return a.urgency != b.urgency ? a.urgency > b.urgency
                                           : std::pair{a.first, a.second} < std::pair{b.first, b.second};
@@ -147,8 +147,8 @@ private:
         if (!cavity) {
             return std::nullopt;
         }
-        const double least = for_quality ? notably * cavity->quality_before
-                                         : std::min(cavity->quality_before, bearable_);
+        const double least =
+            for_quality ? notably * cavity->quality_before : std::min(cavity->quality_before, bearable_);
         const bool free = std::none_of(cavity->removed.begin(), cavity->removed.end(),
                                        [&](Index cell) { return taken_[cell] != 0; });
         if (!free || !(cavity->quality >= least) || !keeps_lengths(*cavity)) {
@@ -163,9 +163,8 @@ private:
 
     /// Whether no new edge has a wrong length.
     bool keeps_lengths(const Cavity<D>& cavity) const {
-        const double longest = std::max(options_.longest, cavity.kind == OperationKind::flip
-                                                              ? longest_of(cavity)
-                                                              : options_.longest);
+        const double longest = std::max(
+            options_.longest, cavity.kind == OperationKind::flip ? longest_of(cavity) : options_.longest);
         for (const Simplex<D>& cell : cavity.added) {
             for (std::size_t i = 0; i <= D; ++i) {
                 for (std::size_t j = 0; j < i; ++j) {
@@ -226,9 +225,9 @@ private:
     const AdaptOptions& options_;
     AdaptReport& report_;
     CavityMaker<D> maker_;
-    double wanted_;          ///< quality below which a cell asks for a flip
-    double wanted_at_least_; ///< ... or for any operation
-    double bearable_; ///< quality that an operation for lengths may leave
+    double wanted_;                   ///< quality below which a cell asks for a flip
+    double wanted_at_least_;          ///< ... or for any operation
+    double bearable_;                 ///< quality that an operation for lengths may leave
     std::vector<std::uint8_t> taken_; ///< of each cell: whether a chosen operation removes it
     std::vector<Cavity<D>> chosen_;
 };

@@ -8,9 +8,9 @@
 
 namespace slabhull {
 
-/// The operations of one layer, which share no cell: chosen greedily by urgency, ties by columns. Splits edges
-/// that are too long for their target, collapses those too short, and changes the connectivity at cells of
-/// small angles. Each can be coned with positive volumes. Adds to the report what was refused.
+/// The operations of one layer, which share no cell: chosen greedily by urgency, ties by columns. Splits
+/// edges that are too long for their target, collapses those too short, and changes the connectivity at cells
+/// of small angles. Each can be coned with positive volumes. Adds to the report what was refused.
 template<int D>
 std::vector<Cavity<D>> choose_operations(const AdaptMesh<D>& mesh, const std::array<double, 2>& times,
                                          const AdaptOptions& options, AdaptReport& report);

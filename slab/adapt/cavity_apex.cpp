@@ -29,8 +29,8 @@ public:
         for (const Index cell : cavity.removed) {
             for (std::size_t i = 0; i <= D; ++i) {
                 const Index across = mesh.neighbors[cell][i];
-                if (across == no_index || std::find(cavity.removed.begin(), cavity.removed.end(), across) ==
-                                              cavity.removed.end()) {
+                if (across == no_index ||
+                    std::find(cavity.removed.begin(), cavity.removed.end(), across) == cavity.removed.end()) {
                     add_wall(outward_facet<D>(mesh.cells[cell], static_cast<int>(i)));
                 }
             }

@@ -25,8 +25,9 @@ double CavityMaker<D>::quality_of(const Simplex<D>& cell, const Cavity<D>& cavit
 /// Finds the qualities; none if a new cell is not positive.
 template<int D>
 std::optional<Cavity<D>> CavityMaker<D>::finished(Cavity<D>&& cavity) const {
+    constexpr double flat = 1e-4; // below it, rounding may have made a cell positive
     cavity.quality = least_quality(cavity, 0);
-    if (!(cavity.quality > 0)) {
+    if (!(cavity.quality > flat)) {
         return std::nullopt;
     }
     cavity.quality_before = std::numeric_limits<double>::infinity();
@@ -201,7 +202,8 @@ std::optional<Cavity<D>> CavityMaker<D>::remove_edge(Index a, Index b) {
                 for (std::size_t k = i + 1; k < j; ++k) {
                     double quality = std::min(best[i][k], best[k][j]);
                     for (const Simplex<D>& cell : pair_over(i, k, j)) {
-                        quality = quality > best[i][j] ? std::min(quality, quality_of(cell, cavity)) : quality;
+                        quality =
+                            quality > best[i][j] ? std::min(quality, quality_of(cell, cavity)) : quality;
                     }
                     if (quality > best[i][j]) {
                         best[i][j] = quality;

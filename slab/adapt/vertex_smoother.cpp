@@ -39,9 +39,9 @@ std::vector<Point<D>> directions() {
 
 } // namespace
 
-/// Whether the staircase over a cell has positive volumes. Its m-th simplex has the volume, up to a factor, of
-/// the cell in space whose vertices before the m-th are at the layer's start, displaced as the m-th is, and
-/// whose others are at its end. `least_share`: of the cell's own measure.
+/// Whether the staircase over a cell has positive volumes. Its m-th simplex has the volume, up to a factor,
+/// of the cell in space whose vertices before the m-th are at the layer's start, displaced as the m-th is,
+/// and whose others are at its end. `least_share`: of the cell's own measure.
 template<int D>
 bool VertexSmoother<D>::is_sound(Index cell, double least_share) const {
     const Simplex<D>& corners = mesh_.cells[cell];
@@ -89,14 +89,15 @@ std::vector<Index> VertexSmoother<D>::unsound() const {
 
 template<int D>
 std::size_t VertexSmoother<D>::run(double wanted) {
-    const std::vector<Index> poor = parallel_gather<Index>(
-        mesh_.cells.size(), cells_per_search, [&](std::size_t begin, std::size_t end, std::vector<Index>& list) {
-            for (std::size_t c = begin; c < end; ++c) {
-                if (value_of(static_cast<Index>(c), 0) < wanted) {
-                    list.push_back(static_cast<Index>(c));
-                }
-            }
-        });
+    const std::vector<Index> poor =
+        parallel_gather<Index>(mesh_.cells.size(), cells_per_search,
+                               [&](std::size_t begin, std::size_t end, std::vector<Index>& list) {
+                                   for (std::size_t c = begin; c < end; ++c) {
+                                       if (value_of(static_cast<Index>(c), 0) < wanted) {
+                                           list.push_back(static_cast<Index>(c));
+                                       }
+                                   }
+                               });
     std::vector<Index> vertices;
     for (const Index cell : poor) {
         for (const Index v : mesh_.cells[cell]) {

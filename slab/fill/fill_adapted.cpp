@@ -41,10 +41,12 @@ SlabColumns<D> columns_of_log(const Hull<D>& hull, const AdaptLog<D>& log, Filli
             continue;
         }
         const double t = hull.points[v][D];
-        const auto level = v < hull.initial_points               ? 0
-                           : v >= hull.terminating_points_begin() ? columns.layers()
-                                                                  : static_cast<std::size_t>(
-                               std::lower_bound(log.times.begin(), log.times.end(), t) - log.times.begin());
+        const auto level =
+            v < hull.initial_points ? 0
+            : v >= hull.terminating_points_begin()
+                ? columns.layers()
+                : static_cast<std::size_t>(std::lower_bound(log.times.begin(), log.times.end(), t) -
+                                           log.times.begin());
         const std::size_t column = column_of(tracks[v]);
         columns.vertex[level * columns.count + column] = static_cast<Index>(v);
     }
@@ -175,7 +177,8 @@ private:
     }
 
     /// Fills the prism over a cell that stays.
-    void extrude(std::size_t layer, const Simplex<D>& cell, const SideWalls<D>& walls, WallPieces<D>& pieces) {
+    void extrude(std::size_t layer, const Simplex<D>& cell, const SideWalls<D>& walls,
+                 WallPieces<D>& pieces) {
         if (!walls.all_staircases() && pieces.meets_other_split(cell, side_)) {
             Point<D + 1> centre{};
             for (const Index column : cell) {
@@ -313,7 +316,8 @@ private:
     SlabColumns<D> columns_;
     std::size_t levels_end_;
     Array<Simplex<D>> cells_; ///< at the start of the present layer, as columns
-    std::vector<std::pair<Facet<D>, Index>> side_; ///< facets of the caps on the side, as columns; swept facet
+    std::vector<std::pair<Facet<D>, Index>>
+        side_; ///< facets of the caps on the side, as columns; swept facet
     std::vector<Index> column_of_initial_;
     std::vector<Simplex<D>> outside_; ///< of a cone: the pieces of its walls, outward
 };
@@ -325,6 +329,21 @@ Filling<D> fill_adapted(const Hull<D>& hull, const AdaptLog<D>& log, StageClock&
     return AdaptedFiller<D>{hull, log}.run(clock);
 }
 
+template<int D>
+Filling<D> fill_slab(const Slab<D>& slab, StageClock& clock) {
+    return slab.adapted ? fill_adapted(slab.hull, slab.adapted->log, clock) : fill_slab(slab.hull, clock);
+}
+
+template<int D>
+Filling<D> fill_slab(const Slab<D>& slab) {
+    StageClock clock;
+    return fill_slab(slab, clock);
+}
+
+template Filling<2> fill_slab<2>(const Slab<2>&, StageClock&);
+template Filling<3> fill_slab<3>(const Slab<3>&, StageClock&);
+template Filling<2> fill_slab<2>(const Slab<2>&);
+template Filling<3> fill_slab<3>(const Slab<3>&);
 template Filling<2> fill_adapted<2>(const Hull<2>&, const AdaptLog<2>&, StageClock&);
 template Filling<3> fill_adapted<3>(const Hull<3>&, const AdaptLog<3>&, StageClock&);
 

@@ -154,17 +154,16 @@ void track_adapted(const NewCap<D>& cap, IdCounter& ids, AdaptLog<D>& log, Spati
 template<int D>
 Sweep<D> checked_sweep(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std::vector<double> times,
                        const SlabSettings<D>& settings, Slab<D>& slab, StageClock& clock) {
-    Sweep<D> sweep = clock.run("trajectories", [&] {
-        return sweep_slab(boundary, cap, std::move(times), settings, slab);
-    });
+    Sweep<D> sweep = clock.run("trajectories",
+                               [&] { return sweep_slab(boundary, cap, std::move(times), settings, slab); });
     clock.run(boundary_check_stage, [&] {
         require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
     });
     return sweep;
 }
 
-/// Sweeps the boundary and makes the terminating cap. Layers that follow the motion are doubled while cells of
-/// an adapted cap would be inside out.
+/// Sweeps the boundary and makes the terminating cap. Layers that follow the motion are doubled while cells
+/// of an adapted cap would be inside out.
 template<int D>
 std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boundary<D>& boundary,
                                              const std::vector<double>& times, SlabSettings<D> settings,

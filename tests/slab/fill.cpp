@@ -289,7 +289,7 @@ TEMPLATE_TEST_CASE_SIG("centres and inner vertices that turned cells inside out 
     }
     const double level = filling.points[filling.hull_points][D];
     REQUIRE_FALSE(not_positive(filling).empty());
-    mend_cells(not_positive(filling), columns, filling);
+    mend_cells(not_positive(filling), columns.cells.size(), columns.layers(), filling);
     require_clean(filling, hull);
     CHECK(filling.points[filling.hull_points][D] == level);
 }
@@ -302,7 +302,7 @@ TEMPLATE_TEST_CASE_SIG("where no place helps, vertices of the hull stay and the 
     const SlabColumns<D> columns = slab_columns(hull, places);
     filling.points.front()[0] += 2; // beyond the kernel of any star
     const auto before = filling.points;
-    mend_cells(not_positive(filling), columns, filling);
+    mend_cells(not_positive(filling), columns.cells.size(), columns.layers(), filling);
     CHECK_FALSE(not_positive(filling).empty());
     CHECK(std::equal(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(filling.hull_points),
                      filling.points.begin()));

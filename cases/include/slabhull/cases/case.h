@@ -153,7 +153,7 @@ struct Case {
     double cap_reuse_angle = 5; ///< degrees; a moved cap with a smaller (dihedral) angle is meshed anew
 
     double adapt_size = std::numeric_limits<double>::infinity(); ///< bound on target lengths inside
-    double adapt_angle = 10;                                      ///< degrees aimed at
+    double adapt_angle = 10;                                     ///< degrees aimed at
 
     bool check_embedding = true;  ///< hulls must be proven not to cross themselves
     std::optional<FillSpec> fill; ///< needs CapReuse::move or adapt, unless by TetGen

@@ -68,11 +68,11 @@ struct AdaptReport {
     std::size_t splits = 0;
     std::size_t collapses = 0;
     std::size_t flips = 0;
-    std::size_t moved = 0;   ///< vertices displaced to improve their cells
-    std::size_t refused = 0; ///< operations that would help, but cannot be coned with positive volumes
-    double smallest_angle = 0;               ///< degrees, at the end
-    double shortest_ratio = 0;               ///< least length of an inner edge over its target, at the end
-    double longest_ratio = 0;                ///< the largest
+    std::size_t moved = 0;     ///< vertices displaced to improve their cells
+    std::size_t refused = 0;   ///< operations that would help, but cannot be coned with positive volumes
+    double smallest_angle = 0; ///< degrees, at the end
+    double shortest_ratio = 0; ///< least length of an inner edge over its target, at the end
+    double longest_ratio = 0;  ///< the largest
 };
 
 /// How a slab's cap was adapted, and the log of it.

@@ -2,8 +2,8 @@
 // Filling a hull with simplices, so that a solver can run on the slab.
 #pragma once
 
-#include "slabhull/slab/adapt.h"
 #include "slabhull/slab/check.h"
+#include "slabhull/slab/slab.h"
 #include "slabhull/slab/stage_clock.h"
 #include "slabhull/topology/filling.h"
 #include "slabhull/topology/hull.h"
@@ -32,6 +32,12 @@ Filling<D> fill_slab(const Hull<D>& hull);
 /// fill_slab() does. Cost: near-linear; some twice that of fill_slab().
 template<int D>
 Filling<D> fill_adapted(const Hull<D>& hull, const AdaptLog<D>& log, StageClock& clock);
+
+/// Fills a slab whose cap was moved or adapted, by the one or the other. Throws as they do.
+template<int D>
+Filling<D> fill_slab(const Slab<D>& slab, StageClock& clock);
+template<int D>
+Filling<D> fill_slab(const Slab<D>& slab);
 
 struct UnstructuredFill {
     /// Length that a unit of time counts for in spacings and shapes. 0: a layer's duration counts for about

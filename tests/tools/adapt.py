@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Caps that are moved and changed locally: filled, resumed, the same whatever the threads; tracks begin and end once."""
+
+import harness
+from harness import ProgramTest, main, slabhull
+
+ELLIPSOID = ('[initial]\nexperiment = "ellipsoid"\nlevel = 1\n[time]\nslabs = {slabs}\nend = {end}\nlayers = 4\n'
+             '[side]\nsplit = "C"\n[cap]\nreuse = "adapt"\nsize = 2.5\n[adapt]\nangle = 12\n[fill]\nformats = ["mfem"]\n'
+             '[output]\nformats = ["vtu"]\n')
+AIRFOIL = """
+dimension = 2
+[initial]
+curves = [ {{ file = "{root}/examples/naca0012.dat", patch = "airfoil" }} ]
+box = {{ min = [-2.0, -2.0], max = [4.0, 2.0], size = 0.4, patch = "farfield" }}
+[time]
+end = 1.0
+slabs = 10
+layers = 30
+[motion.airfoil]
+kind = "velocity"
+formula = [ "6.283185307179586 * y", "-6.283185307179586 * (x - 0.25)" ]
+[cap]
+reuse = "adapt"
+[fill]
+formats = ["vtu"]
+[output]
+formats = ["vtu"]
+"""
+
+
+class Adapted(ProgramTest):
+    def sound(self, slab, least_angle):
+        self.assertEqual(slab["cap"]["made"], "adapted")
+        self.assertGreaterEqual(slab["adapt"]["smallest_angle"], least_angle)
+        self.assertLess(abs(slab["fill"]["volume"] / slab["measure"]["enclosed"] - 1), 1e-12)
+        self.assertGreater(slab["fill"]["smallest_volume"], 0)
+
+    def checked(self, out, slab, extension):
+        result = slabhull("check", out / f"fill_{slab:04}.{extension}", "--hull", out / f"slab_{slab:04}.vtu", "--json")
+        self.assertEqual(result.code, 0, result.out + result.err)
+
+    def test_an_airfoil_turns_once_and_every_slab_is_filled(self):
+        out, report = self.build(self.case(AIRFOIL.format(root=harness.ROOT)))
+        self.assertEqual(len(report["slabs"]), 10)
+        for slab in report["slabs"]:
+            self.sound(slab, 8)
+        for slab in (0, 9):
+            self.checked(out, slab, "vtu")
+            self.check(out / f"slab_{slab:04}.vtu")
+        self.assertGreater(sum(slab["adapt"]["splits"] for slab in report["slabs"]), 0)
+        self.assertGreater(sum(slab["adapt"]["collapses"] for slab in report["slabs"]), 0)
+        cells = [slab["fill"]["cells"] for slab in report["slabs"]]
+        self.assertLess(max(cells) / min(cells), 1.2)
+
+    @harness.long
+    def test_an_ellipsoid_turns_further_than_a_moved_cap_can(self):
+        out, report = self.build(self.case(ELLIPSOID.format(slabs=12, end=2.4)))
+        for slab in report["slabs"]:
+            self.sound(slab, 8)
+        self.checked(out, 11, "mfem")
+        self.check(out / "slab_0011.vtu")
+
+    @harness.long
+    def test_a_resumed_run_and_other_threads_write_the_same_bytes(self):
+        whole = self.case(ELLIPSOID.format(slabs=4, end=0.8))
+        first = self.case(ELLIPSOID.format(slabs=2, end=0.4), "first.toml")
+        out, _ = self.build(whole)
+        self.build(first, "--threads", "1", out="resumed")
+        self.build(whole, "--resume", "--threads", "1", out="resumed")
+        for name in ("slab_0001.vtu", "slab_0003.vtu", "cap_0004.vtu", "fill_0003.mfem"):
+            self.assertEqual((out / name).read_bytes(), (self.dir / "resumed" / name).read_bytes(), name)
+
+    def test_settings_are_checked(self):
+        text = ELLIPSOID.format(slabs=1, end=0.1)
+        self.refused(self.case(text.replace("angle = 12", "angle = 50")), 2, "angle", "30")
+        self.refused(self.case(text.replace("angle = 12", "size = -1")), 2, "size")
+        self.refused(self.case(text.replace("angle = 12", "angel = 12")), 2, "angel")
+        self.refused(self.case(text.replace('reuse = "adapt"', 'reuse = "move"')), 2, "adapt", "reuse")
+
+    def test_a_hull_alone_is_not_filled_and_the_message_says_what_is(self):
+        out, _ = self.build(self.case(ELLIPSOID.format(slabs=1, end=0.2)))
+        result = slabhull("fill", out / "slab_0000.vtu", self.dir / "fill.mfem")
+        self.assertEqual(result.code, 4, result.err)
+        self.assertIn("[fill]", result.err)
+        self.assertFalse((self.dir / "fill.mfem").exists())
+
+    def test_too_few_layers_are_an_error_that_says_so(self):
+        text = ELLIPSOID.format(slabs=1, end=1.5).replace("layers = 4", "layers = 1")
+        self.refused(self.case(text), 4, "inside out", "layers")
+
+
+if __name__ == "__main__":
+    main()
