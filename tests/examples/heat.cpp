@@ -40,7 +40,7 @@ March<D> march_of_box(Index n, Split split, CapReuse reuse = CapReuse::move) {
     settings.side.split = split;
     settings.reuse = reuse;
     settings.adapt.size = 1.2 / n; // cells of one size, and something to do
-    settings.adapt.longest = D == 2 ? 1.4 : 1.6;
+    settings.adapt.longest = D == 2 ? 1.5 : 1.6;
     settings.adapt.angle = 12;
     return {march_from<D>(std::move(cap), 0, ids), std::move(settings)};
 }
