@@ -241,7 +241,7 @@ TEMPLATE_TEST_CASE_SIG("operations do not touch the domain's boundary", "[adapt]
 }
 
 TEMPLATE_TEST_CASE_SIG("connectivity is right after rounds of operations", "[adapt]", ((int D), D), 2, 3) {
-    for (unsigned seed = 0; seed < static_cast<unsigned>(rounds(20)); ++seed) {
+    for (unsigned seed = 0; seed < static_cast<unsigned>(rounds(D == 2 ? 50 : 10)); ++seed) {
         AdaptMesh<D> mesh = random_mesh<D>(3, seed, 0);
         std::mt19937 random{seed};
         AdaptLog<D> log;
@@ -392,7 +392,7 @@ namespace {
 
 template<int D>
 March<D> adapting_march(Split split) {
-    Case the_case = D == 2 ? experiment_at("expanding-circle", 0.8) : experiment_at("ellipsoid", 0.5);
+    Case the_case = D == 2 ? experiment_at("expanding-circle", 0.8) : experiment_at("ellipsoid", 0.3);
     the_case.cap_reuse = CapReuse::adapt;
     the_case.split = split;
     StageClock clock;
@@ -411,7 +411,8 @@ std::vector<Split> splits() {
     if constexpr (D == 2) {
         return {Split::diagonal, Split::centre};
     } else {
-        return {Split::A, Split::B, Split::C, Split::D, Split::E};
+        return rounds(10) == 10 ? std::vector{Split::A, Split::B, Split::C, Split::D, Split::E}
+                                : std::vector{Split::A, Split::C};
     }
 }
 
@@ -423,7 +424,7 @@ TEMPLATE_TEST_CASE_SIG("slabs whose caps are adapted are filled, whatever the sp
         INFO(split_name(split));
         March<D> march = adapting_march<D>(split);
         std::set<TrackId> ended;
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < 2; ++k) {
             StageClock clock;
             const double t = march.state().time;
             Slab<D> slab = march.propose({t, t + 0.05, t + 0.1, t + 0.15}, clock);

@@ -52,7 +52,6 @@ class Adapted(ProgramTest):
         cells = [slab["fill"]["cells"] for slab in report["slabs"]]
         self.assertLess(max(cells) / min(cells), 1.2)
 
-    @harness.long
     def test_an_ellipsoid_turns_further_than_a_moved_cap_can(self):
         out, report = self.build(self.case(ELLIPSOID.format(slabs=12, end=2.4)))
         for slab in report["slabs"]:
@@ -60,7 +59,6 @@ class Adapted(ProgramTest):
         self.checked(out, 11, "mfem")
         self.check(out / "slab_0011.vtu")
 
-    @harness.long
     def test_a_resumed_run_and_other_threads_write_the_same_bytes(self):
         whole = self.case(ELLIPSOID.format(slabs=4, end=0.8))
         first = self.case(ELLIPSOID.format(slabs=2, end=0.4), "first.toml")
