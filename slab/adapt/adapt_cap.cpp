@@ -81,12 +81,23 @@ private:
     void set_targets() {
         const std::vector<double> spacing = sweep_.boundary.mean_edges(sweep_.boundary.start());
         const SizeField<D> sizes{sweep_.positions.front(), spacing, {options_.growth, options_.size}};
+        // Cells on the boundary are as large as its facets: max over y of (h_y - |x - y|) is a lower bound,
+        // which is the same field for the spacings below their maximum.
+        const double most = 1.001 * *std::max_element(spacing.begin(), spacing.end());
+        std::vector<double> below_most(spacing.size());
+        std::transform(spacing.begin(), spacing.end(), below_most.begin(), [&](double h) { return most - h; });
+        const SizeField<D> gaps{sweep_.positions.front(), below_most, {1, most}};
         mesh_.target.resize(mesh_.now.size());
         parallel_for(mesh_.target.size(), 1 << 13, [&](std::size_t begin, std::size_t end) {
             for (std::size_t v = begin; v < end; ++v) {
-                mesh_.target[v] = sizes(mesh_.now[v]);
+                mesh_.target[v] = std::max(sizes(mesh_.now[v]), most - gaps(mesh_.now[v]));
             }
         });
+        if (std::getenv("HIST")) {
+            std::vector<double> r[3];
+            for (const auto& cell : mesh_.cells) for (std::size_t i = 0; i <= D; ++i) for (std::size_t j = 0; j < i; ++j) r[mesh_.on_boundary[cell[i]] + mesh_.on_boundary[cell[j]]].push_back(mesh_.length_ratio(cell[i], cell[j]));
+            for (auto& x : r) { std::sort(x.begin(), x.end()); std::fprintf(stderr, "%zu: ", x.size()); for (double q : {0.0, .01,.05,.25,.5,.75,.95,.99,.999,1.0}) if (!x.empty()) std::fprintf(stderr, "%.2f ", x[std::min(x.size()-1, std::size_t(q*x.size()))]); std::fprintf(stderr, "\n"); }
+        }
     }
 
     void note_level() {

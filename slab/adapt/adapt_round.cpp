@@ -36,10 +36,9 @@ class RoundChooser {
 public:
     RoundChooser(const AdaptMesh<D>& mesh, const std::array<double, 2>& times, const AdaptOptions& options,
                  AdaptReport& report)
-        : mesh_{mesh}, times_{times}, options_{options}, report_{report}, maker_{mesh},
+        : mesh_{mesh}, times_{times}, options_{options}, report_{report}, taken_(mesh.cells.size(), 0), maker_{mesh, &taken_},
           wanted_{quality_of_angle(1.8 * options.angle)},
-          wanted_at_least_{quality_of_angle(options.angle)}, bearable_{quality_of_angle(0.8 * options.angle)},
-          taken_(mesh.cells.size(), 0) {}
+          wanted_at_least_{quality_of_angle(options.angle)}, bearable_{quality_of_angle(0.8 * options.angle)} {}
 
     std::vector<Cavity<D>> run() {
         for (const Wish& wish : wishes()) {
@@ -93,14 +92,17 @@ private:
     }
 
     std::optional<Cavity<D>> best_for(const Wish& wish) {
+        constexpr double notably = 1.1;
         if (wish.of_cell()) {
+            maker_.demand(notably, 1); // the worst cell must become better
             return taken_[wish.first] != 0 ? std::nullopt : better_cells(wish.first);
         }
+        maker_.demand(1, bearable_); // no smaller angles than there were, unless these are bearable
         if (wish.ratio > 1) {
-            return admitted(maker_.split(wish.first, wish.second), false);
+            return admitted(maker_.split(wish.first, wish.second));
         }
         for (const auto& [ending, kept] : {std::pair{wish.second, wish.first}, {wish.first, wish.second}}) {
-            if (auto cavity = admitted(maker_.collapse(ending, kept), false)) {
+            if (auto cavity = admitted(maker_.collapse(ending, kept))) {
                 return cavity;
             }
         }
@@ -112,7 +114,7 @@ private:
         std::optional<Cavity<D>> best;
         const auto consider = [&](std::optional<Cavity<D>>&& cavity) {
             if (cavity && (!best || cavity->quality > best->quality)) {
-                if (auto admissible = admitted(std::move(cavity), true)) {
+                if (auto admissible = admitted(std::move(cavity))) {
                     best = std::move(admissible);
                 }
             }
@@ -140,18 +142,9 @@ private:
         return best;
     }
 
-    /// The cavity if it may be taken. `for_quality`: it must improve the worst cell notably; others must not
-    /// make cells of smaller angles than there were, unless these are good.
-    std::optional<Cavity<D>> admitted(std::optional<Cavity<D>>&& cavity, bool for_quality) {
-        constexpr double notably = 1.1;
-        if (!cavity) {
-            return std::nullopt;
-        }
-        const double least =
-            for_quality ? notably * cavity->quality_before : std::min(cavity->quality_before, bearable_);
-        const bool free = std::none_of(cavity->removed.begin(), cavity->removed.end(),
-                                       [&](Index cell) { return taken_[cell] != 0; });
-        if (!free || !(cavity->quality >= least) || !keeps_lengths(*cavity)) {
+    /// The cavity if it keeps lengths and can be coned.
+    std::optional<Cavity<D>> admitted(std::optional<Cavity<D>>&& cavity) {
+        if (!cavity || !keeps_lengths(*cavity)) {
             return std::nullopt;
         }
         if (!find_apex(mesh_, times_, *cavity)) {
@@ -224,11 +217,11 @@ private:
     std::array<double, 2> times_;
     const AdaptOptions& options_;
     AdaptReport& report_;
+    std::vector<std::uint8_t> taken_; ///< of each cell: whether a chosen operation removes it
     CavityMaker<D> maker_;
     double wanted_;                   ///< quality below which a cell asks for a flip
     double wanted_at_least_;          ///< ... or for any operation
     double bearable_;                 ///< quality that an operation for lengths may leave
-    std::vector<std::uint8_t> taken_; ///< of each cell: whether a chosen operation removes it
     std::vector<Cavity<D>> chosen_;
 };
 

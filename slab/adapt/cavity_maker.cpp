@@ -22,20 +22,31 @@ double CavityMaker<D>::quality_of(const Simplex<D>& cell, const Cavity<D>& cavit
     return cell_quality(corners);
 }
 
-/// Finds the qualities; none if a new cell is not positive.
 template<int D>
-std::optional<Cavity<D>> CavityMaker<D>::finished(Cavity<D>&& cavity) const {
-    constexpr double flat = 1e-4; // below it, rounding may have made a cell positive
-    cavity.quality = least_quality(cavity, 0);
-    if (!(cavity.quality > flat)) {
-        return std::nullopt;
+bool CavityMaker<D>::examine_removed(Cavity<D>& cavity) const {
+    if (taken_ != nullptr && std::any_of(cavity.removed.begin(), cavity.removed.end(),
+                                         [&](Index cell) { return (*taken_)[cell] != 0; })) {
+        return false;
     }
     cavity.quality_before = std::numeric_limits<double>::infinity();
     for (const Index cell : cavity.removed) {
         cavity.quality_before =
             std::min(cavity.quality_before, cell_quality(corners_of<D, D>(mesh_.cells[cell], mesh_.now)));
     }
-    return std::move(cavity);
+    return true;
+}
+
+template<int D>
+double CavityMaker<D>::demanded(const Cavity<D>& cavity) const {
+    constexpr double flat = 1e-4; // below it, rounding may have made a cell positive
+    return std::max(flat, std::min(factor_ * cavity.quality_before, ceiling_));
+}
+
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::finished(Cavity<D>&& cavity) const {
+    const double least = demanded(cavity);
+    cavity.quality = least_quality(cavity, least);
+    return cavity.quality >= least ? std::optional{std::move(cavity)} : std::nullopt;
 }
 
 template<int D>
@@ -46,7 +57,7 @@ Point<D> CavityMaker<D>::half_way(Index v) const {
 template<int D>
 std::optional<Cavity<D>> CavityMaker<D>::split(Index a, Index b) {
     Cavity<D> cavity;
-    if (!mesh_.gather_edge_star(a, b, cavity.removed)) {
+    if (!mesh_.gather_edge_star(a, b, cavity.removed) || !examine_removed(cavity)) {
         return std::nullopt;
     }
     cavity.kind = OperationKind::split;
@@ -70,7 +81,7 @@ void CavityMaker<D>::improve_new_place(Index a, Index b, Cavity<D>& cavity) cons
     constexpr double last_step = 0.02;
     const double length = distance(mesh_.now[a], mesh_.now[b]);
     double best = least_quality(cavity, -1);
-    for (double step = 0.1; step > last_step;) {
+    for (double step = 0.1; step > last_step && best < demanded(cavity);) {
         const Point<D> from = cavity.new_place;
         Point<D> to = from;
         for (std::size_t k = 0; k < 2 * D; ++k) {
@@ -106,6 +117,9 @@ std::optional<Cavity<D>> CavityMaker<D>::collapse(Index ending, Index kept) {
     }
     Cavity<D> cavity;
     mesh_.gather_star(ending, cavity.removed);
+    if (!examine_removed(cavity)) {
+        return std::nullopt;
+    }
     cavity.kind = OperationKind::collapse;
     cavity.ended = ending;
     cavity.kernel = half_way(ending);
@@ -129,6 +143,9 @@ std::optional<Cavity<D>> CavityMaker<D>::flip_facet(Index cell, std::size_t i) {
     Cavity<D> cavity;
     cavity.kind = OperationKind::flip;
     cavity.removed = {cell, across};
+    if (!examine_removed(cavity)) {
+        return std::nullopt;
+    }
     for (std::size_t k = 0; k <= D; ++k) {
         if (k != i) { // the cell with corner k moved across the facet
             cavity.added.push_back(corners);
@@ -182,12 +199,14 @@ std::optional<Cavity<D>> CavityMaker<D>::remove_edge(Index a, Index b) {
         Cavity<D> cavity;
         std::vector<Index> ring;
         if (!mesh_.gather_edge_star(a, b, cavity.removed) || cavity.removed.size() > most_around_edge ||
-            cavity.removed.size() < 3 || !order_ring(a, b, cavity.removed, ring)) {
+            cavity.removed.size() < 3 || !examine_removed(cavity) ||
+            !order_ring(a, b, cavity.removed, ring)) {
             return std::nullopt;
         }
         cavity.kind = OperationKind::flip;
         cavity.kernel = times(0.5, plus(half_way(a), half_way(b)));
         const std::size_t n = ring.size();
+        const double least = demanded(cavity);
         // best[i][j]: the largest least quality over triangulations of the polygon ring[i] .. ring[j]
         std::array<std::array<double, most_around_edge>, most_around_edge> best{};
         std::array<std::array<std::size_t, most_around_edge>, most_around_edge> middle{};
@@ -198,7 +217,7 @@ std::optional<Cavity<D>> CavityMaker<D>::remove_edge(Index a, Index b) {
         for (std::size_t length = 1; length < n; ++length) {
             for (std::size_t i = 0; i + length < n; ++i) {
                 const std::size_t j = i + length;
-                best[i][j] = length == 1 ? std::numeric_limits<double>::infinity() : 0;
+                best[i][j] = length == 1 ? std::numeric_limits<double>::infinity() : least;
                 for (std::size_t k = i + 1; k < j; ++k) {
                     double quality = std::min(best[i][k], best[k][j]);
                     for (const Simplex<D>& cell : pair_over(i, k, j)) {
@@ -212,7 +231,7 @@ std::optional<Cavity<D>> CavityMaker<D>::remove_edge(Index a, Index b) {
                 }
             }
         }
-        if (!(best[0][n - 1] > 0)) {
+        if (!(best[0][n - 1] > least)) {
             return std::nullopt;
         }
         std::vector<std::array<std::size_t, 2>> parts{{0, n - 1}};

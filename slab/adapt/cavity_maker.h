@@ -3,6 +3,7 @@
 
 #include "slab/adapt/adapt_mesh.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,16 @@ public:
     /// An edge is removed only if no more cells than these surround it.
     static constexpr std::size_t most_around_edge = 7;
 
-    explicit CavityMaker(const AdaptMesh<D>& mesh) : mesh_{mesh} {}
+    /// `taken`, by cell: whether a cell may not be removed any more.
+    explicit CavityMaker(const AdaptMesh<D>& mesh, const std::vector<std::uint8_t>* taken = nullptr)
+        : mesh_{mesh}, taken_{taken} {}
+
+    /// Operations whose new cells have a smaller quality than `factor` times that of the worst cell removed,
+    /// or than `ceiling` if that is less, are not made.
+    void demand(double factor, double ceiling) {
+        factor_ = factor;
+        ceiling_ = ceiling;
+    }
 
     /// Divides an edge by a vertex at its midpoint.
     std::optional<Cavity<D>> split(Index a, Index b);
@@ -33,12 +43,18 @@ private:
     double quality_of(const Simplex<D>& cell, const Cavity<D>& cavity) const;
     double least_quality(const Cavity<D>& cavity, double enough) const;
     void improve_new_place(Index a, Index b, Cavity<D>& cavity) const;
+    /// Whether all cells to be removed are free; finds the quality of the worst.
+    bool examine_removed(Cavity<D>& cavity) const;
+    double demanded(const Cavity<D>& cavity) const;
+    /// The cavity with its quality, if that is as demanded.
     std::optional<Cavity<D>> finished(Cavity<D>&& cavity) const;
     Point<D> half_way(Index v) const;
     bool order_ring(Index a, Index b, const std::vector<Index>& star, std::vector<Index>& ring) const;
 
     const AdaptMesh<D>& mesh_;
-    std::vector<Index> star_;
+    const std::vector<std::uint8_t>* taken_;
+    double factor_ = 0;
+    double ceiling_ = 1;
 };
 
 extern template class CavityMaker<2>;

@@ -69,11 +69,12 @@ double VertexSmoother<D>::value_of(Index cell, double enough) const {
 }
 
 template<int D>
-double VertexSmoother<D>::around(double enough) const {
+double VertexSmoother<D>::around(double enough) {
     double least = std::numeric_limits<double>::infinity();
-    for (const Index cell : star_) {
-        least = std::min(least, value_of(cell, enough));
+    for (std::size_t k = 0; k < star_.size(); ++k) {
+        least = std::min(least, value_of(star_[k], enough));
         if (least < enough) {
+            std::swap(star_[k], star_[k / 2]); // likely to fail at the next place, too
             break;
         }
     }

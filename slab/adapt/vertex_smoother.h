@@ -24,7 +24,7 @@ public:
 private:
     bool improve(Index vertex, double wanted);
     /// The smallest value around a vertex, or any value below `enough` if it is.
-    double around(double enough) const;
+    double around(double enough);
     double value_of(Index cell, double enough) const;
     bool is_sound(Index cell, double least_share) const;
 
