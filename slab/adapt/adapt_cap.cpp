@@ -93,11 +93,6 @@ private:
                 mesh_.target[v] = std::max(sizes(mesh_.now[v]), most - gaps(mesh_.now[v]));
             }
         });
-        if (std::getenv("HIST")) {
-            std::vector<double> r[3];
-            for (const auto& cell : mesh_.cells) for (std::size_t i = 0; i <= D; ++i) for (std::size_t j = 0; j < i; ++j) r[mesh_.on_boundary[cell[i]] + mesh_.on_boundary[cell[j]]].push_back(mesh_.length_ratio(cell[i], cell[j]));
-            for (auto& x : r) { std::sort(x.begin(), x.end()); std::fprintf(stderr, "%zu: ", x.size()); for (double q : {0.0, .01,.05,.25,.5,.75,.95,.99,.999,1.0}) if (!x.empty()) std::fprintf(stderr, "%.2f ", x[std::min(x.size()-1, std::size_t(q*x.size()))]); std::fprintf(stderr, "\n"); }
-        }
     }
 
     void note_level() {

@@ -123,6 +123,7 @@ class Ways(ConvertTest):
             self.assertLess(sizes["zlib"], sizes["lz4"])
             self.assertLess(sizes["lz4"], sizes["raw"])
 
+    @harness.long
     def test_a_hull_goes_through_each_kind_of_msh_and_stays_the_same(self):
         for text in HULLS:
             vtu, _ = self.hull(text)
@@ -210,6 +211,7 @@ class Ways(ConvertTest):
 
 
 class Parts(ConvertTest):
+    @harness.long
     def test_a_hull_is_split_into_its_caps_and_the_patches_of_its_side(self):
         for text in HULLS:
             vtu, msh = self.hull(text)
