@@ -29,6 +29,7 @@ run() { # the bench and its options
 run bench_slab_check
 run bench_slab_stages 7 3 "$out/stages"
 run bench_slab_orders
+run bench_slab_adapt 0.6 5 2
 run bench_slab_fill 64 A
 run bench_slab_fill 64 C
 run bench_slab_stitch --benchmark_min_time=0.3

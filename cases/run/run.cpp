@@ -95,6 +95,7 @@ Json as_json(const AdaptReport& report) {
             {"flips", report.flips},
             {"moved", report.moved},
             {"refused", report.refused},
+            {"halvings", report.halvings},
             {"edge_length_ratio", {report.shortest_ratio, report.longest_ratio}},
             {"smallest_angle", report.smallest_angle}};
 }
@@ -221,6 +222,7 @@ private:
         StageClock clock;
         Slab<D> slab = build(clock);
         warn_of_layers(slab);
+        warn_of_halvings(slab);
         const std::optional<Filled> filled = fill(slab, clock);
         SlabFiles files;
         begin_writing(slab, filled, files); // the disk is slow: it works while the hull is checked
@@ -312,6 +314,14 @@ private:
             slab.hull.slab, slab.layers.layers, slab.layers.layers == 1 ? "layer is" : "layers are",
             patch_name(patches_, slab.layers.patch), slab.layers.deviation, case_.layer_tolerance,
             slab.layers.turn, slab.layers.time, enough));
+    }
+
+    void warn_of_halvings(const Slab<D>& slab) const {
+        if (slab.adapted && slab.adapted->report.halvings > 0) {
+            listener_.warning(
+                fmt::format("slab {} has {} layers: with fewer, cells of its cap would be inside out",
+                            slab.hull.slab, slab.layers.layers));
+        }
     }
 
     struct Filled {

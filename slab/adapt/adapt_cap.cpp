@@ -85,7 +85,8 @@ private:
         // which is the same field for the spacings below their maximum.
         const double most = 1.001 * *std::max_element(spacing.begin(), spacing.end());
         std::vector<double> below_most(spacing.size());
-        std::transform(spacing.begin(), spacing.end(), below_most.begin(), [&](double h) { return most - h; });
+        std::transform(spacing.begin(), spacing.end(), below_most.begin(),
+                       [&](double h) { return most - h; });
         const SizeField<D> gaps{sweep_.positions.front(), below_most, {1, most}};
         mesh_.target.resize(mesh_.now.size());
         parallel_for(mesh_.target.size(), 1 << 13, [&](std::size_t begin, std::size_t end) {

@@ -36,9 +36,10 @@ class RoundChooser {
 public:
     RoundChooser(const AdaptMesh<D>& mesh, const std::array<double, 2>& times, const AdaptOptions& options,
                  AdaptReport& report)
-        : mesh_{mesh}, times_{times}, options_{options}, report_{report}, taken_(mesh.cells.size(), 0), maker_{mesh, &taken_},
-          wanted_{quality_of_angle(1.8 * options.angle)},
-          wanted_at_least_{quality_of_angle(options.angle)}, bearable_{quality_of_angle(0.8 * options.angle)} {}
+        : mesh_{mesh}, times_{times}, options_{options}, report_{report},
+          taken_(mesh.cells.size(), 0), maker_{mesh, &taken_}, wanted_{quality_of_angle(1.8 * options.angle)},
+          wanted_at_least_{quality_of_angle(options.angle)}, bearable_{
+                                                                 quality_of_angle(0.8 * options.angle)} {}
 
     std::vector<Cavity<D>> run() {
         for (const Wish& wish : wishes()) {
@@ -219,9 +220,9 @@ private:
     AdaptReport& report_;
     std::vector<std::uint8_t> taken_; ///< of each cell: whether a chosen operation removes it
     CavityMaker<D> maker_;
-    double wanted_;                   ///< quality below which a cell asks for a flip
-    double wanted_at_least_;          ///< ... or for any operation
-    double bearable_;                 ///< quality that an operation for lengths may leave
+    double wanted_;          ///< quality below which a cell asks for a flip
+    double wanted_at_least_; ///< ... or for any operation
+    double bearable_;        ///< quality that an operation for lengths may leave
     std::vector<Cavity<D>> chosen_;
 };
 

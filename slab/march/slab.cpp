@@ -162,13 +162,25 @@ Sweep<D> checked_sweep(const Boundary<D>& boundary, const SpatialMesh<D>& cap, s
     return sweep;
 }
 
-/// Sweeps the boundary and makes the terminating cap. Layers that follow the motion are doubled while cells
-/// of an adapted cap would be inside out.
+constexpr int most_halvings = 6; ///< of layers, for an adapted cap
+
+/// Levels with one more between any two.
+std::vector<double> halved(const std::vector<double>& times) {
+    std::vector<double> finer{times.front()};
+    for (std::size_t k = 1; k < times.size(); ++k) {
+        finer.push_back(0.5 * (times[k - 1] + times[k]));
+        finer.push_back(times[k]);
+    }
+    return finer;
+}
+
+/// Sweeps the boundary and makes the terminating cap. Layers are halved while cells of an adapted cap would
+/// be inside out.
 template<int D>
 std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boundary<D>& boundary,
-                                             const std::vector<double>& times, SlabSettings<D> settings,
+                                             std::vector<double> times, SlabSettings<D> settings,
                                              Slab<D>& slab, StageClock& clock) {
-    for (;;) {
+    for (int halvings = 0;; ++halvings) {
         Sweep<D> sweep = checked_sweep<D>(boundary, initial.mesh(), times, settings, slab, clock);
         if (settings.reuse != CapReuse::adapt) {
             NewCap<D> cap{make_cap<D>(initial.mesh(), sweep, settings, slab, clock), {}, 0};
@@ -176,13 +188,18 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
         }
         try {
             NewCap<D> cap = make_adapted_cap<D>(initial, sweep, settings, slab, clock);
+            slab.adapted->report.halvings = halvings;
             return {std::move(sweep), std::move(cap)};
         } catch (const InvertedCap&) {
             const std::size_t doubled = 2 * sweep.layers();
-            if (!settings.layers.automatic || doubled > static_cast<std::size_t>(settings.layers.most)) {
+            if (halvings == most_halvings || doubled > static_cast<std::size_t>(settings.layers.most)) {
                 throw;
             }
-            settings.layers.at_least = static_cast<int>(doubled);
+            if (settings.layers.automatic) {
+                settings.layers.at_least = static_cast<int>(doubled);
+            } else {
+                times = halved(times);
+            }
         }
     }
 }

@@ -477,16 +477,20 @@ TEMPLATE_TEST_CASE_SIG("an adapted slab is the same with any number of threads",
     CHECK(one.adapted->log.removed == three.adapted->log.removed);
 }
 
-TEST_CASE("a cap whose cells a layer turns inside out is refused, and gets more layers if they are free",
-          "[adapt]") {
+TEST_CASE("layers are halved while they turn cells of the cap inside out", "[adapt]") {
     March<3> march = adapting_march<3>(Split::A);
     march.settings().motions.begin()->second.motion = rotation<3>({0, 0, 1}, {}, 1.5);
+    for (const bool automatic : {false, true}) {
+        march.settings().layers.automatic = automatic;
+        march.settings().layers.tolerance = 10;
+        march.settings().layers.turn = 120;
+        march.settings().layers.edges_across = 0;
+        const Slab<3> slab = march.propose({0, 1});
+        CHECK(slab.adapted->report.halvings > 0);
+        CHECK(slab.hull.layers == slab.layers.layers);
+        CHECK(slab.hull.layers == slab.adapted->log.layers());
+        CHECK(check_hull<3>(slab.hull).clean());
+    }
+    march.settings().layers.most = 1;
     REQUIRE_THROWS_AS(march.propose({0, 1}), InvertedCap);
-    march.settings().layers.automatic = true;
-    march.settings().layers.tolerance = 10;
-    march.settings().layers.turn = 120;
-    march.settings().layers.edges_across = 0;
-    const Slab<3> slab = march.propose({0, 1});
-    CHECK(slab.layers.layers > 1);
-    CHECK(check_hull<3>(slab.hull).clean());
 }

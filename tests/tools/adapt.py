@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Caps that are moved and changed locally: filled, resumed, the same whatever the threads; tracks begin and end once."""
 
+import json
+
 import harness
 from harness import ProgramTest, main, slabhull
 
@@ -82,9 +84,15 @@ class Adapted(ProgramTest):
         self.assertIn("[fill]", result.err)
         self.assertFalse((self.dir / "fill.mfem").exists())
 
-    def test_too_few_layers_are_an_error_that_says_so(self):
-        text = ELLIPSOID.format(slabs=1, end=1.5).replace("layers = 4", "layers = 1")
-        self.refused(self.case(text), 4, "inside out", "layers")
+    def test_too_few_layers_are_halved_and_that_is_said(self):
+        text = ELLIPSOID.format(slabs=1, end=1.2).replace("layers = 4", "layers = 1")
+        result = slabhull("build", self.case(text), "--out", self.dir / "out")
+        self.assertEqual(result.code, 0, result.err)
+        slab = json.loads((self.dir / "out" / "report.json").read_text())["slabs"][0]
+        self.assertGreater(slab["adapt"]["halvings"], 0)
+        self.assertEqual(slab["layers"]["number"], 2 ** slab["adapt"]["halvings"])
+        self.assertIn(f"slab 0 has {slab['layers']['number']} layers", result.err)
+        self.sound(slab, 5)
 
 
 if __name__ == "__main__":

@@ -69,6 +69,7 @@ struct AdaptReport {
     std::size_t collapses = 0;
     std::size_t flips = 0;
     std::size_t moved = 0;     ///< vertices displaced to improve their cells
+    int halvings = 0;          ///< how often all layers were halved, since cells would have been inside out
     std::size_t refused = 0;   ///< operations that would help, but cannot be coned with positive volumes
     double smallest_angle = 0; ///< degrees, at the end
     double shortest_ratio = 0; ///< least length of an inner edge over its target, at the end
