@@ -42,7 +42,9 @@ Hull<D> sound_hull(const FillCommand& command, io::Soup& soup) {
                                      command.hull, report.total(), report.findings.front().text),
                          report.findings.front().entities};
     }
-    return hull_of_columns<D>(columns);
+    Hull<D> hull = hull_of_columns<D>(columns);
+    read_slab_fields(soup, hull);
+    return hull;
 }
 
 template<int D>

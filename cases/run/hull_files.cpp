@@ -107,6 +107,10 @@ DataArray number_field(std::string name, Array<std::int64_t> values) {
     return {std::move(name), 1, std::move(values)};
 }
 
+DataArray real_field(std::string name, const std::vector<double>& values) {
+    return {std::move(name), 1, Array<double>(values.begin(), values.end())};
+}
+
 void add_patch_fields(MeshColumns& mesh, const PatchList& patches) {
     Array<std::int64_t> numbers;
     std::vector<std::string> names;
@@ -148,6 +152,10 @@ MeshColumns vtu_columns(const Hull<D>& hull) {
                        {"time", 1, Array<double>{hull.time[0], hull.time[1]}},
                        number_field("dimension", {D})};
     add_patch_fields(mesh, hull.patches);
+    if (!hull.adapt_settings.empty()) {
+        mesh.field_data.push_back(real_field("adapt_settings", hull.adapt_settings));
+        mesh.field_data.push_back(real_field("adapt_spacing", hull.adapt_spacing));
+    }
     return mesh;
 }
 
@@ -405,6 +413,23 @@ SpatialMesh<D> read_cap(const std::filesystem::path& path) {
 }
 
 template<int D>
+void read_slab_fields(const io::Soup& soup, Hull<D>& hull) {
+    if (const DataArray* slab = soup.find_field_data("slab")) {
+        const auto* numbers = std::get_if<IntegerList>(&slab->values);
+        hull.slab = numbers != nullptr && !numbers->empty() ? static_cast<int>((*numbers)[0]) : hull.slab;
+    }
+    const auto read = [&](const char* name, std::vector<double>& numbers) {
+        if (const DataArray* field = soup.find_field_data(name)) {
+            if (const auto* values = std::get_if<Array<double>>(&field->values)) {
+                numbers.assign(values->begin(), values->end());
+            }
+        }
+    };
+    read("adapt_settings", hull.adapt_settings);
+    read("adapt_spacing", hull.adapt_spacing);
+}
+
+template<int D>
 void write_section(io::AtomicFile& file, const Section<D>& section) {
     const Surface<D>& surface = section.surface;
     const auto over = [](const auto& values) {
@@ -543,6 +568,8 @@ template void write_section<2>(io::AtomicFile&, const Section<2>&);
 template void write_section<3>(io::AtomicFile&, const Section<3>&);
 template void write_section<2>(io::AtomicFile&, const FillingSection<2>&, std::span<const VertexValues>);
 template void write_section<3>(io::AtomicFile&, const FillingSection<3>&, std::span<const VertexValues>);
+template void read_slab_fields<2>(const io::Soup&, Hull<2>&);
+template void read_slab_fields<3>(const io::Soup&, Hull<3>&);
 template struct HullArrays<2>;
 template struct HullArrays<3>;
 template HullArrays<2> hull_of_soup<2>(io::Soup&);

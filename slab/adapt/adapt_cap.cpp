@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -25,16 +27,16 @@ namespace {
 template<int D>
 class CapAdapter {
 public:
-    CapAdapter(const SpatialMesh<D>& initial, std::span<const TrackId> tracks, const Sweep<D>& sweep,
+    CapAdapter(const SpatialMesh<D>& initial, std::span<const TrackId> tracks, const CapBoundary<D>& boundary,
                const AdaptOptions& options)
-        : sweep_{sweep}, options_{options} {
+        : boundary_{boundary}, options_{options} {
         open(initial, tracks);
         set_targets();
     }
 
     AdaptedCap<D> run() {
         note_level();
-        for (std::size_t layer = 0; layer < sweep_.layers(); ++layer) {
+        for (std::size_t layer = 0; layer < layers(); ++layer) {
             go_on();
             move(layer);
             change(layer);
@@ -45,6 +47,8 @@ public:
     }
 
 private:
+    std::size_t layers() const { return boundary_.times.size() - 1; }
+
     /// Numbers the vertices by ascending track.
     void open(const SpatialMesh<D>& initial, std::span<const TrackId> tracks) {
         const std::size_t count = initial.points.size();
@@ -60,7 +64,7 @@ private:
         mesh_.column.resize(count);
         std::iota(mesh_.column.begin(), mesh_.column.end(), Index{0});
         mesh_.on_boundary.assign(count, 0);
-        for (const Index v : sweep_.boundary.mesh_vertices()) {
+        for (const Index v : boundary_.vertices) {
             mesh_.boundary.push_back(column_of[v]);
             mesh_.on_boundary[column_of[v]] = 1;
         }
@@ -74,20 +78,20 @@ private:
         mesh_.find_cells_of_vertices();
         result_.columns = static_cast<Index>(count);
         result_.log.cells = mesh_.cells;
-        result_.log.times = sweep_.times;
+        result_.log.times = boundary_.times;
     }
 
     /// Vertices keep their targets through the slab; new ones take those of their edge.
     void set_targets() {
-        const std::vector<double> spacing = sweep_.boundary.mean_edges(sweep_.boundary.start());
-        const SizeField<D> sizes{sweep_.positions.front(), spacing, {options_.growth, options_.size}};
+        const std::span<const double> spacing = boundary_.spacing;
+        const SizeField<D> sizes{boundary_.positions.front(), spacing, {options_.growth, options_.size}};
         // Cells on the boundary are as large as its facets: max over y of (h_y - |x - y|) is a lower bound,
         // which is the same field for the spacings below their maximum.
         const double most = 1.001 * *std::max_element(spacing.begin(), spacing.end());
         std::vector<double> below_most(spacing.size());
         std::transform(spacing.begin(), spacing.end(), below_most.begin(),
                        [&](double h) { return most - h; });
-        const SizeField<D> gaps{sweep_.positions.front(), below_most, {1, most}};
+        const SizeField<D> gaps{boundary_.positions.front(), below_most, {1, most}};
         mesh_.target.resize(mesh_.now.size());
         parallel_for(mesh_.target.size(), 1 << 13, [&](std::size_t begin, std::size_t end) {
             for (std::size_t v = begin; v < end; ++v) {
@@ -107,7 +111,7 @@ private:
         CapMotionOptions careful;
         careful.tolerance = careful_tolerance;
         mesh_.now =
-            move_cap<D>(mesh_.before, mesh_.cells, mesh_.boundary, sweep_.positions[layer + 1], careful)
+            move_cap<D>(mesh_.before, mesh_.cells, mesh_.boundary, boundary_.positions[layer + 1], careful)
                 .points;
         VertexSmoother<D> smoother{mesh_};
         const double good = quality_of_angle(1.8 * options_.angle);
@@ -138,13 +142,13 @@ private:
             fmt::format("{} cells of the cap would be inside out between t = {} and {}, near{}; "
                         "more layers (time.layers) or shorter slabs (time.slabs) do, since each "
                         "layer then moves less",
-                        cells.size(), sweep_.times[layer], sweep_.times[layer + 1], names),
+                        cells.size(), boundary_.times[layer], boundary_.times[layer + 1], names),
             std::move(entities)};
     }
 
     void change(std::size_t layer) {
         const std::vector<Cavity<D>> cavities = choose_operations<D>(
-            mesh_, {sweep_.times[layer], sweep_.times[layer + 1]}, options_, result_.report);
+            mesh_, {boundary_.times[layer], boundary_.times[layer + 1]}, options_, result_.report);
         mesh_.apply(cavities, result_.columns, result_.log);
     }
 
@@ -180,7 +184,7 @@ private:
         cap.neighbors = std::move(mesh_.neighbors);
     }
 
-    const Sweep<D>& sweep_;
+    const CapBoundary<D>& boundary_;
     const AdaptOptions& options_;
     AdaptMesh<D> mesh_;
     AdaptedCap<D> result_;
@@ -189,14 +193,40 @@ private:
 } // namespace
 
 template<int D>
-AdaptedCap<D> adapt_cap(const SpatialMesh<D>& initial, std::span<const TrackId> tracks, const Sweep<D>& sweep,
-                        const AdaptOptions& options) {
-    return CapAdapter<D>{initial, tracks, sweep, options}.run();
+AdaptedCap<D> adapt_cap(const SpatialMesh<D>& initial, std::span<const TrackId> tracks,
+                        const CapBoundary<D>& boundary, const AdaptOptions& options) {
+    return CapAdapter<D>{initial, tracks, boundary, options}.run();
 }
 
-template AdaptedCap<2> adapt_cap<2>(const SpatialMesh<2>&, std::span<const TrackId>, const Sweep<2>&,
+template<int D>
+void give_new_tracks(TrackId first, Index columns, AdaptLog<D>& log) {
+    while (log.tracks.size() < columns) {
+        log.tracks.push_back(first++);
+    }
+}
+
+std::vector<double> settings_as_numbers(const AdaptOptions& options) {
+    return {std::isfinite(options.size) ? options.size : 0, options.growth, options.angle, options.shortest,
+            options.longest};
+}
+
+AdaptOptions settings_of_numbers(const std::vector<double>& numbers) {
+    if (numbers.size() != 5 ||
+        !std::all_of(numbers.begin(), numbers.end(), [](double x) { return x >= 0; })) {
+        throw GeometryError{
+            fmt::format("the hull has {} settings of adaptation, not five numbers from 0; build "
+                        "it anew",
+                        numbers.size())};
+    }
+    const double size = numbers[0] > 0 ? numbers[0] : std::numeric_limits<double>::infinity();
+    return {size, numbers[1], numbers[2], numbers[3], numbers[4]};
+}
+
+template AdaptedCap<2> adapt_cap<2>(const SpatialMesh<2>&, std::span<const TrackId>, const CapBoundary<2>&,
                                     const AdaptOptions&);
-template AdaptedCap<3> adapt_cap<3>(const SpatialMesh<3>&, std::span<const TrackId>, const Sweep<3>&,
+template AdaptedCap<3> adapt_cap<3>(const SpatialMesh<3>&, std::span<const TrackId>, const CapBoundary<3>&,
                                     const AdaptOptions&);
+template void give_new_tracks<2>(TrackId, Index, AdaptLog<2>&);
+template void give_new_tracks<3>(TrackId, Index, AdaptLog<3>&);
 
 } // namespace slabhull

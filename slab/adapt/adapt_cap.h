@@ -4,8 +4,8 @@
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/adapt.h"
-#include "slabhull/slab/sweep.h"
-
+#include "slabhull/topology/hull.h"
+#include "slabhull/topology/spatial_mesh.h"
 #include <span>
 #include <vector>
 
@@ -27,13 +27,30 @@ public:
     using GeometryError::GeometryError;
 };
 
+/// The moving boundary of a cap.
+template<int D>
+struct CapBoundary {
+    std::span<const Index> vertices;               ///< the initial cap's
+    const std::vector<double>& times;              ///< of the levels
+    const std::vector<Array<Point<D>>>& positions; ///< by level, then as `vertices`
+    std::span<const double> spacing;               ///< target length of edges at each
+};
+
 /// Moves the initial cap from level to level (move_cap()), improves its vertices' places, and makes a round
 /// of operations in each layer. `tracks` are those of all its vertices. Throws InvertedCap naming the
 /// vertices of cells that cannot be kept positive. Cost: per layer that of move_cap(), two or three passes
 /// over the cells, and some 10 to 100 microseconds for each cell that asks for an operation. The same for any
 /// number of threads.
 template<int D>
-AdaptedCap<D> adapt_cap(const SpatialMesh<D>& initial, std::span<const TrackId> tracks, const Sweep<D>& sweep,
-                        const AdaptOptions& options);
+AdaptedCap<D> adapt_cap(const SpatialMesh<D>& initial, std::span<const TrackId> tracks,
+                        const CapBoundary<D>& boundary, const AdaptOptions& options);
 
+/// Gives the vertices made by operations their tracks: ascending from `first`.
+template<int D>
+void give_new_tracks(TrackId first, Index columns, AdaptLog<D>& log);
+
+/// The log of an adapted slab, found by adapting its initial cap again. Throws GeometryError when that does
+/// not lead to the hull's terminating cap.
+template<int D>
+AdaptLog<D> log_of_hull(const Hull<D>& hull);
 } // namespace slabhull

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/fill.h"
 
+#include "slab/adapt/adapt_cap.h"
 #include "slab/fill/cone_cells.h"
 #include "slab/fill/describe_hull.h"
 #include "slab/fill/inner_places.h"
@@ -152,6 +153,11 @@ void describe(const Hull<D>& hull, const SlabColumns<D>& columns, Filling<D>& fi
 
 template<int D>
 Filling<D> fill_slab(const Hull<D>& hull, StageClock& clock) {
+    if (!hull.adapt_settings.empty()) {
+        const AdaptLog<D> log = log_of_hull(hull);
+        clock.book("adapting the cap again");
+        return fill_adapted(hull, log, clock);
+    }
     Filling<D> filling;
     const SlabColumns<D> columns = slab_columns(hull, filling);
     clock.book("cap pairing");

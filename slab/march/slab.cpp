@@ -30,7 +30,12 @@ NewCap<D> make_adapted_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const
                            Slab<D>& slab, StageClock& clock) {
     enter_stage("cap adapting");
     initial.give_tracks(tracks_throughout(initial.mesh()));
-    AdaptedCap<D> adapted = adapt_cap<D>(initial.mesh(), initial.tracks(), sweep, settings.adapt);
+    const std::vector<double> spacing = sweep.boundary.mean_edges(sweep.boundary.start());
+    AdaptedCap<D> adapted =
+        adapt_cap<D>(initial.mesh(), initial.tracks(),
+                     {sweep.boundary.mesh_vertices(), sweep.times, sweep.positions, spacing}, settings.adapt);
+    slab.hull.adapt_settings = settings_as_numbers(settings.adapt);
+    slab.hull.adapt_spacing = spacing;
     slab.cap_moved = true;
     slab.adapted.emplace(Adaptation<D>{adapted.report, std::move(adapted.log)});
     clock.book("cap adapting");
@@ -141,10 +146,7 @@ void track_inside(CapToStitch<D>& initial, const Sweep<D>& sweep, const Slab<D>&
 /// Gives the vertices made by operations their tracks, and the terminating cap its own.
 template<int D>
 void track_adapted(const NewCap<D>& cap, IdCounter& ids, AdaptLog<D>& log, SpatialMesh<D>& terminating) {
-    TrackId track = ids.take(cap.columns - log.tracks.size());
-    while (log.tracks.size() < cap.columns) {
-        log.tracks.push_back(track++);
-    }
+    give_new_tracks(ids.take(cap.columns - log.tracks.size()), static_cast<Index>(cap.columns), log);
     terminating.track_ids.resize(cap.column.size());
     for (std::size_t v = 0; v < cap.column.size(); ++v) {
         terminating.track_ids[v] = log.tracks[cap.column[v]];
@@ -220,7 +222,10 @@ Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int numb
         if (slab.adapted) {
             track_adapted<D>(cap, ids, slab.adapted->log, terminating);
         }
-        slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
+        Hull<D> hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
+        hull.adapt_settings = std::move(slab.hull.adapt_settings);
+        hull.adapt_spacing = std::move(slab.hull.adapt_spacing);
+        slab.hull = std::move(hull);
         slab.terminating_facets.assign(boundary.facets().begin(), boundary.facets().end());
         slab.hull.slab = number;
         slab.projected = std::move(sweep.projected);

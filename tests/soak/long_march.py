@@ -138,7 +138,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program")
     parser.add_argument("--slabs", type=int, default=1000)
-    parser.add_argument("--reuse", default="move", choices=("move", "none"))
+    parser.add_argument("--reuse", default="move", choices=("move", "none", "adapt"))
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="slabhull-soak-") as folder:
         folder = Path(folder)

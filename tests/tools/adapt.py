@@ -2,6 +2,7 @@
 """Caps that are moved and changed locally: filled, resumed, the same whatever the threads; tracks begin and end once."""
 
 import json
+import struct
 
 import harness
 from harness import ProgramTest, main, slabhull
@@ -77,11 +78,36 @@ class Adapted(ProgramTest):
         self.refused(self.case(text.replace("angle = 12", "angel = 12")), 2, "angel")
         self.refused(self.case(text.replace('reuse = "adapt"', 'reuse = "move"')), 2, "adapt", "reuse")
 
-    def test_a_hull_alone_is_not_filled_and_the_message_says_what_is(self):
+    def test_a_hull_s_file_alone_is_filled_with_the_same_bytes(self):
+        for text, extension in ((ELLIPSOID.format(slabs=2, end=0.4), "mfem"),
+                                (AIRFOIL.format(root=harness.ROOT).replace("slabs = 10", "slabs = 2")
+                                 .replace("end = 1.0", "end = 0.2"), "vtu")):
+            out, report = self.build(self.case(text), out=f"out_{extension}")
+            for slab in report["slabs"]:
+                self.assertGreater(slab["adapt"]["splits"] + slab["adapt"]["collapses"], 0)
+                name = f"{slab['slab']:04}"
+                result = slabhull("fill", out / f"slab_{name}.vtu", self.dir / f"again.{extension}")
+                self.assertEqual(result.code, 0, result.err)
+                self.assertEqual((self.dir / f"again.{extension}").read_bytes(),
+                                 (out / f"fill_{name}.{extension}").read_bytes())
+
+    def test_a_file_without_what_was_adapted_is_not_filled_and_the_message_says_what_is(self):
         out, _ = self.build(self.case(ELLIPSOID.format(slabs=1, end=0.2)))
-        result = slabhull("fill", out / "slab_0000.vtu", self.dir / "fill.mfem")
+        slabhull("convert", out / "slab_0000.vtu", self.dir / "hull.msh")
+        result = slabhull("fill", self.dir / "hull.msh", self.dir / "fill.mfem")
         self.assertEqual(result.code, 4, result.err)
         self.assertIn("[fill]", result.err)
+        self.assertFalse((self.dir / "fill.mfem").exists())
+
+    def test_settings_that_lead_to_another_cap_are_refused(self):
+        out, _ = self.build(self.case(ELLIPSOID.format(slabs=1, end=0.2)))
+        hull = (out / "slab_0000.vtu").read_bytes()
+        angle = struct.pack("<d", 12.0)
+        at = hull.index(angle, hull.index(b"<AppendedData"))  # in the field adapt_settings: fields come first
+        (self.dir / "other.vtu").write_bytes(hull[:at] + struct.pack("<d", 3.0) + hull[at + 8:])
+        result = slabhull("fill", self.dir / "other.vtu", self.dir / "fill.mfem")
+        self.assertEqual(result.code, 4, result.err)
+        self.assertIn("do not lead to its terminating cap", result.err)
         self.assertFalse((self.dir / "fill.mfem").exists())
 
     def test_too_few_layers_are_halved_and_that_is_said(self):

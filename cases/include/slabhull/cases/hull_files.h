@@ -84,6 +84,11 @@ struct HullArrays {
 template<int D>
 HullArrays<D> hull_of_soup(io::Soup& soup);
 
+/// Takes the number of the slab, and what an adapted cap was held to (Hull::adapt_settings), from the fields
+/// of a file, if it has them.
+template<int D>
+void read_slab_fields(const io::Soup& soup, Hull<D>& hull);
+
 /// The points and the cells of a spatial mesh, as the file has them. mesh_of_soup() throws InputError for
 /// triangles that do not lie in a plane z = constant.
 template<int D>

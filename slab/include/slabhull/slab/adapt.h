@@ -31,6 +31,11 @@ enum class OperationKind : std::uint8_t {
     flip,     ///< of a facet, or of an edge with all its cells: no vertex begins or ends
 };
 
+/// For files: size (0: none), growth, angle, shortest, longest.
+std::vector<double> settings_as_numbers(const AdaptOptions& options);
+/// Throws GeometryError for other than five finite numbers.
+AdaptOptions settings_of_numbers(const std::vector<double>& numbers);
+
 /// A local change of connectivity in a layer: cells of the mesh at the layer's start become other cells with
 /// the same boundary at its end. In space-time, they bound a cell that is coned from `apex`.
 template<int D>

@@ -15,7 +15,8 @@ namespace slabhull {
 /// becomes D + 1 simplices without new vertices; one that meets another split on the hull's side is coned
 /// from its centre. Vertices inside the caps are placed on every inner level by move_cap().
 ///
-/// Cells stand by layer, then by cell of the initial cap. Their signs are exact.
+/// Cells stand by layer, then by cell of the initial cap. Their signs are exact. A cap that was adapted
+/// (Hull::adapt_settings) is adapted again to learn what happened inside, then filled by fill_adapted().
 ///
 /// Needs: a sound hull (check_hull()) whose vertices on levels all have tracks.
 /// Throws GeometryError when the caps are not one mesh, naming the cells that differ; naming cell and layer

@@ -41,6 +41,10 @@ struct Hull {
     int slab = 0;
     std::array<double, 2> time{}; ///< start and end of the slab
 
+    /// Of a cap that was adapted, what it was held to, so that its changes can be made again when the hull is
+    /// filled (slab/adapt.h: settings_as_numbers()), and the target length at each swept vertex; else empty.
+    std::vector<double> adapt_settings;
+    std::vector<double> adapt_spacing;
     std::size_t terminating_begin() const { return initial_cells + side_cells; }
     std::size_t terminating_points_begin() const { return initial_points + side_points; }
 
