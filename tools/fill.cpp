@@ -123,7 +123,9 @@ int fill(const FillCommand& command) {
 void add_fill(CLI::App& program, int& exit_code) {
     auto command = std::make_shared<FillCommand>();
     CLI::App* app = program.add_subcommand("fill", "Fill a hull with space-time simplices");
-    app->add_option("HULL", command->hull, "The hull of a slab; for march built with cap.reuse = \"move\"")
+    app->add_option(
+           "HULL", command->hull,
+           "The hull of a slab; for march built with cap.reuse = \"move\" or \"adapt\" (then its VTU file)")
         ->required();
     app->add_option("OUT", command->out, "The filling: .mfem, .getfem, .h5; in 2D+t also .vtu and .msh")
         ->required();

@@ -330,8 +330,9 @@ private:
             case_.adapt_size = table.positive("size");
         }
         case_.adapt_angle = table.number_or("angle", case_.adapt_angle);
-        if (!(case_.adapt_angle >= 0 && case_.adapt_angle <= 30)) {
-            table.fail("angle", "an angle from 0 to 30 degrees");
+        const double most = case_.dimension == 3 ? 15 : 30; // beyond it, cells become ever more and no better
+        if (!(case_.adapt_angle >= 0 && case_.adapt_angle <= most)) {
+            table.fail("angle", fmt::format("an angle from 0 to {} degrees", most));
         }
         table.require_all_known();
     }

@@ -204,6 +204,13 @@ private:
         listener_.progress(fmt::format("going on from t = {}", checkpoint.state.time), 0);
         start(std::move(checkpoint.state));
         journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
+        journal_->each_line([this](const std::string& line) { // the first slab of few layers was told of
+            const Json slab = Json::parse(line);
+            if (slab.contains("layers") && slab["layers"].contains("sound") &&
+                !slab["layers"]["sound"].get<bool>()) {
+                march_->settings().layers.suggest = false;
+            }
+        });
         return true;
     }
 
@@ -220,10 +227,9 @@ private:
         listener_.progress(fmt::format("slab {} from t = {:.6g}", number, time),
                            (time - case_.start) / (case_.end - case_.start));
         StageClock clock;
-        Slab<D> slab = build(clock);
+        auto [slab, filled] = build_and_fill(clock);
         warn_of_layers(slab);
         warn_of_halvings(slab);
-        const std::optional<Filled> filled = fill(slab, clock);
         SlabFiles files;
         begin_writing(slab, filled, files); // the disk is slow: it works while the hull is checked
         const SoundHull sound = require_sound_hull<D>(slab.hull, fmt::format("the hull of slab {}", number),
@@ -271,14 +277,55 @@ private:
         }
     }
 
-    /// The slab as planned; with time.adapt, cut short before its boundary tangles.
-    Slab<D> build(StageClock& clock) {
+    struct Filled {
+        Filling<D> mesh;
+        Json report;
+    };
+
+    /// The slab and its filling, if that is wanted. Layers of an adapted slab that cannot be filled are
+    /// halved.
+    std::pair<Slab<D>, std::optional<Filled>> build_and_fill(StageClock& clock) {
+        constexpr int most_halvings = 4;
+        const LayerOptions layers = march_->settings().layers;
+        for (int halvings = 0;; ++halvings) {
+            Slab<D> slab = build(clock, halvings);
+            try {
+                std::optional<Filled> filled = fill(slab, clock);
+                march_->settings().layers.at_least = layers.at_least;
+                if (slab.adapted) {
+                    slab.adapted->report.halvings += halvings;
+                }
+                return {std::move(slab), std::move(filled)};
+            } catch (const GeometryError&) {
+                const std::size_t doubled = 2 * slab.hull.layers;
+                if (!slab.adapted || halvings == most_halvings ||
+                    doubled > static_cast<std::size_t>(layers.most)) {
+                    throw;
+                }
+                march_->settings().layers.at_least = static_cast<int>(doubled);
+            }
+        }
+    }
+
+    /// The slab at these levels. What may have to be built again keeps the initial cap.
+    Slab<D> build_at(std::vector<double> times, StageClock& clock) {
+        return case_.fill && case_.cap_reuse == CapReuse::adapt ? march_->propose(std::move(times), clock)
+                                                                : march_->build(std::move(times), clock);
+    }
+
+    /// The slab as planned, with given layers halved so often; with time.adapt, cut short before its boundary
+    /// tangles.
+    Slab<D> build(StageClock& clock, int halvings) {
         const double begin = march_->state().time;
         const double floor = case_.adapt_floor * (case_.end - case_.start) / case_.slabs;
         warn_of_size(case_.level_times(begin, case_.slab_end(begin)).size() - 1);
         for (double end = case_.slab_end(begin);;) {
             try {
-                return march_->build(case_.level_times(begin, end), clock);
+                std::vector<double> times = case_.level_times(begin, end);
+                for (int k = 0; k < halvings && !case_.layers_follow_motion(); ++k) {
+                    times = halved_levels(times);
+                }
+                return build_at(std::move(times), clock);
             } catch (const TangledBoundary& tangled) {
                 if (!case_.adapt) {
                     throw;
@@ -318,16 +365,11 @@ private:
 
     void warn_of_halvings(const Slab<D>& slab) const {
         if (slab.adapted && slab.adapted->report.halvings > 0) {
-            listener_.warning(
-                fmt::format("slab {} has {} layers: with fewer, cells of its cap would be inside out",
-                            slab.hull.slab, slab.layers.layers));
+            listener_.warning(fmt::format(
+                "slab {} has {} layers: with fewer, cells of its cap or filling would be inside out",
+                slab.hull.slab, slab.layers.layers));
         }
     }
-
-    struct Filled {
-        Filling<D> mesh;
-        Json report;
-    };
 
     /// The filling; none when the case wants none, or when the cap was meshed anew.
     std::optional<Filled> fill(const Slab<D>& slab, StageClock& clock) const {

@@ -81,7 +81,7 @@ void require_resolvable(const Surface<3>& surface) {
 }
 
 template<int D>
-void require_attainable(const Surface<D>& surface, double largest) {
+void require_attainable(const Surface<D>& surface, double largest, const char* key) {
     std::vector<Index> all(surface.facets.size());
     std::iota(all.begin(), all.end(), Index{0});
     const double volume = enclosed_by<D>(surface, all);
@@ -92,10 +92,10 @@ void require_attainable(const Surface<D>& surface, double largest) {
     if (!(cells > most)) {
         return;
     }
-    throw LimitError{fmt::format("cells no longer than {:.3g} (cap.size) in a domain of measure {:.4g} are "
+    throw LimitError{fmt::format("cells no longer than {:.3g} ({}) in a domain of measure {:.4g} are "
                                  "some {:.2g}: {}. A size from {:.2g} "
                                  "on would do",
-                                 largest, volume, cells,
+                                 largest, key, volume, cells,
                                  cells > most_indices
                                      ? fmt::format("indices count up to {:.2g}", most_indices)
                                      : fmt::format("they take {:.3g} GB at least, and {:.3g} GB are free",
@@ -103,7 +103,7 @@ void require_attainable(const Surface<D>& surface, double largest) {
                                  1.05 * std::pow(cells_per_cube<D> * volume / most, 1.0 / D))};
 }
 
-template void require_attainable<2>(const Surface<2>&, double);
-template void require_attainable<3>(const Surface<3>&, double);
+template void require_attainable<2>(const Surface<2>&, double, const char*);
+template void require_attainable<3>(const Surface<3>&, double, const char*);
 
 } // namespace slabhull

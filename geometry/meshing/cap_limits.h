@@ -10,10 +10,10 @@ template<int D>
 inline constexpr double cells_per_cube = D == 3 ? 7.2 : 2.3;
 
 /// Throws LimitError, with the figures, if filling the domain with cells no longer than `largest` needs more
-/// cells than indices can count or free memory can hold; nothing of that size is allocated. Cost: linear in
-/// the facets.
+/// cells than indices can count or free memory can hold; nothing of that size is allocated. `key`: what the
+/// user calls `largest`. Cost: linear in the facets.
 template<int D>
-void require_attainable(const Surface<D>& surface, double largest);
+void require_attainable(const Surface<D>& surface, double largest, const char* key = "cap.size");
 
 /// Throws GeometryError naming two points of the boundary, with their patches, that TetGen would merge:
 /// nearer than 1e-8 of the diagonal of the bounding box. Cost: that of sorting the points.

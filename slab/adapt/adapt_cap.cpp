@@ -114,7 +114,9 @@ private:
             move_cap<D>(mesh_.before, mesh_.cells, mesh_.boundary, boundary_.positions[layer + 1], careful)
                 .points;
         VertexSmoother<D> smoother{mesh_};
-        const double good = quality_of_angle(1.8 * options_.angle);
+        constexpr double least =
+            5; // degrees: cells that are no good for a layer are mended whatever is aimed at
+        const double good = quality_of_angle(std::max(least, 1.8 * options_.angle));
         result_.report.moved += smoother.run(good);
         for (int pass = 1; pass < most_passes && !smoother.unsound().empty(); ++pass) {
             smoother.run(good);
@@ -139,9 +141,9 @@ private:
             names += fmt::format("{} ({:.6g})", k == 0 ? "" : ",", fmt::join(place, ", "));
         }
         throw InvertedCap{
-            fmt::format("{} cells of the cap would be inside out between t = {} and {}, near{}; "
-                        "more layers (time.layers) or shorter slabs (time.slabs) do, since each "
-                        "layer then moves less",
+            fmt::format("{} of the cap's cells would be inside out between t = {} and {}, near{}; "
+                        "shorter slabs (time.slabs), more layers (time.layers), smaller cells "
+                        "(cap.size) or a larger adapt.angle may do",
                         cells.size(), boundary_.times[layer], boundary_.times[layer + 1], names),
             std::move(entities)};
     }

@@ -30,8 +30,8 @@ std::vector<Entity> entities_of(const char* kind, const std::vector<Index>& numb
 [[noreturn]] void refuse(const std::string& what, const char* kind, const std::vector<Index>& at_fault) {
     throw GeometryError(fmt::format("{} {} {}: the hull alone cannot be filled, since its caps are not one "
                                     "mesh moved. A cap that was meshed anew has none before it; build with "
-                                    "cap.reuse = \"move\", and with shorter slabs where moving fails. One "
-                                    "that was adapted is filled by `build`, with [fill] in the case file",
+                                    "cap.reuse = \"move\" or \"adapt\". One that was adapted is filled from "
+                                    "its VTU file, or by `build` with [fill] in the case file",
                                     what, kind, listed(at_fault, most_named)),
                         entities_of(kind, at_fault));
 }

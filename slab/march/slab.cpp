@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/slab.h"
 
+#include "geometry/meshing/cap_limits.h"
 #include "slab/adapt/adapt_cap.h"
 #include "slab/march/cap_reuse.h"
 #include "slabhull/core/memory.h"
@@ -29,6 +30,7 @@ template<int D>
 NewCap<D> make_adapted_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const SlabSettings<D>& settings,
                            Slab<D>& slab, StageClock& clock) {
     enter_stage("cap adapting");
+    require_attainable<D>(sweep.at(0), settings.adapt.size, "adapt.size");
     initial.give_tracks(tracks_throughout(initial.mesh()));
     const std::vector<double> spacing = sweep.boundary.mean_edges(sweep.boundary.start());
     AdaptedCap<D> adapted =
@@ -121,6 +123,7 @@ Sweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std:
             : sweep_measured<D>(boundary, cap, settings.motions, settings.motion_start, std::move(times),
                                 settings.trajectory, settings.layers);
     slab.layers = swept.fit;
+    slab.layers_enough.reset(); // of an attempt with fewer layers
     require_attainable_side<D>(boundary, swept.sweep.layers(), settings.side.split);
     if (!swept.fit.sound() && settings.layers.suggest) {
         slab.layers_enough = enough_layers(boundary, cap, swept.sweep.times, settings, swept.fit);
@@ -165,17 +168,6 @@ Sweep<D> checked_sweep(const Boundary<D>& boundary, const SpatialMesh<D>& cap, s
 }
 
 constexpr int most_halvings = 6; ///< of layers, for an adapted cap
-
-/// Levels with one more between any two.
-std::vector<double> halved(const std::vector<double>& times) {
-    std::vector<double> finer{times.front()};
-    for (std::size_t k = 1; k < times.size(); ++k) {
-        finer.push_back(0.5 * (times[k - 1] + times[k]));
-        finer.push_back(times[k]);
-    }
-    return finer;
-}
-
 /// Sweeps the boundary and makes the terminating cap. Layers are halved while cells of an adapted cap would
 /// be inside out.
 template<int D>
@@ -200,7 +192,7 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
             if (settings.layers.automatic) {
                 settings.layers.at_least = static_cast<int>(doubled);
             } else {
-                times = halved(times);
+                times = halved_levels(times);
             }
         }
     }

@@ -13,4 +13,13 @@ std::vector<double> even_levels(double begin, double end, std::size_t layers) {
     return times;
 }
 
+std::vector<double> halved_levels(const std::vector<double>& times) {
+    std::vector<double> finer{times.front()};
+    for (std::size_t k = 1; k < times.size(); ++k) {
+        finer.push_back(0.5 * (times[k - 1] + times[k]));
+        finer.push_back(times[k]);
+    }
+    return finer;
+}
+
 } // namespace slabhull

@@ -59,6 +59,9 @@ public:
 /// The times of levels that divide [begin, end] into equal layers.
 std::vector<double> even_levels(double begin, double end, std::size_t layers);
 
+/// Levels with one more between any two.
+std::vector<double> halved_levels(const std::vector<double>& times);
+
 /// As sweep_boundary(), and measures how well the layers follow the motion. Trajectories are sampled at eight
 /// times per layer (at least 32 per slab) and at the rows of tables (at most 1,000 per slab). Between samples
 /// they are Hermite cubics, whose velocity is compared with the motion's at a time that no period of the
