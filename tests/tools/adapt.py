@@ -71,9 +71,29 @@ class Adapted(ProgramTest):
         for name in ("slab_0000.vtu", "slab_0001.vtu", "cap_0002.vtu", "fill_0001.mfem"):
             self.assertEqual((out / name).read_bytes(), (self.dir / "resumed" / name).read_bytes(), name)
 
+    def test_more_layers_are_taken_where_a_filling_needs_them(self):
+        text = ELLIPSOID.format(slabs=2, end=1.0).replace("layers = 4", "layers = 1").replace('split = "C"', 'split = "E"')
+        _, report = self.build(self.case(text))
+        self.assertGreater(sum(slab["adapt"]["halvings"] for slab in report["slabs"]), 0)
+        for slab in report["slabs"]:
+            self.sound(slab, 5)
+            self.assertEqual(slab["layers"]["number"], 2 ** slab["adapt"]["halvings"])
+
+    def test_a_resumed_run_tells_of_layers_as_the_whole_one(self):
+        text = ELLIPSOID.replace("[fill]\n", "").replace('formats = ["mfem"]\n', "")
+        whole = self.case(text.format(slabs=3, end=1.5).replace("layers = 4", "layers = 2"))
+        first = self.case(text.format(slabs=1, end=0.5).replace("layers = 4", "layers = 2"), "first.toml")
+        _, report = self.build(whole)
+        self.build(first, out="resumed")
+        _, resumed = self.build(whole, "--resume", out="resumed")
+        self.assertEqual([slab["layers"] for slab in report["slabs"]], [slab["layers"] for slab in resumed["slabs"]])
+        self.assertIn("would_do", report["slabs"][0]["layers"])
+
     def test_settings_are_checked(self):
         text = ELLIPSOID.format(slabs=1, end=0.1)
-        self.refused(self.case(text.replace("angle = 12", "angle = 50")), 2, "angle", "30")
+        self.refused(self.case(text.replace("angle = 12", "size = 1e-12")), 4, "adapt.size")
+        self.refused(self.case(text.replace("angle = 12", "angle = 16")), 2, "angle", "15")
+        self.refused(self.case(text.replace("angle = 12", "angle = 50")), 2, "angle", "15")
         self.refused(self.case(text.replace("angle = 12", "size = -1")), 2, "size")
         self.refused(self.case(text.replace("angle = 12", "angel = 12")), 2, "angel")
         self.refused(self.case(text.replace('reuse = "adapt"', 'reuse = "move"')), 2, "adapt", "reuse")

@@ -21,7 +21,7 @@ struct AdaptOptions {
     double growth = 0.3;
     double angle = 10; ///< degrees: cells with a smaller (dihedral) angle are to be improved
     /// Edges inside are kept within these multiples of their target length.
-    double shortest = 0.6;
+    double shortest = 0.7; // with 0.6, splits outweigh collapses, and cells become more for hundreds of slabs
     double longest = 1.6;
 };
 
