@@ -330,9 +330,11 @@ private:
             case_.adapt_size = table.positive("size");
         }
         case_.adapt_angle = table.number_or("angle", case_.adapt_angle);
-        const double most = case_.dimension == 3 ? 15 : 30; // beyond it, cells become ever more and no better
-        if (!(case_.adapt_angle >= 0 && case_.adapt_angle <= most)) {
-            table.fail("angle", fmt::format("an angle from 0 to {} degrees", most));
+        // Beyond these, cells become ever more and no better; with less, they become too flat to be moved.
+        const double least = 5;
+        const double most = case_.dimension == 3 ? 15 : 30;
+        if (!(case_.adapt_angle >= least && case_.adapt_angle <= most)) {
+            table.fail("angle", fmt::format("an angle from {} to {} degrees", least, most));
         }
         table.require_all_known();
     }

@@ -93,6 +93,7 @@ class Adapted(ProgramTest):
         text = ELLIPSOID.format(slabs=1, end=0.1)
         self.refused(self.case(text.replace("angle = 12", "size = 1e-12")), 4, "adapt.size")
         self.refused(self.case(text.replace("angle = 12", "angle = 16")), 2, "angle", "15")
+        self.refused(self.case(text.replace("angle = 12", "angle = 0")), 2, "angle", "5")
         self.refused(self.case(text.replace("angle = 12", "angle = 50")), 2, "angle", "15")
         self.refused(self.case(text.replace("angle = 12", "size = -1")), 2, "size")
         self.refused(self.case(text.replace("angle = 12", "angel = 12")), 2, "angel")
