@@ -84,7 +84,7 @@ void CavityMaker<D>::improve_new_place(Index a, Index b, Cavity<D>& cavity) cons
     for (double step = 0.1; step > last_step && best < demanded(cavity);) {
         const Point<D> from = cavity.new_place;
         Point<D> to = from;
-        for (std::size_t k = 0; k < 2 * D; ++k) {
+        for (std::size_t k = 0; k < std::size_t{2} * D; ++k) {
             cavity.new_place = from;
             cavity.new_place[k / 2] += (k % 2 == 0 ? step : -step) * length;
             if (const double value = least_quality(cavity, best); value > best) {
