@@ -365,9 +365,9 @@ private:
 
     void warn_of_halvings(const Slab<D>& slab) const {
         if (slab.adapted && slab.adapted->report.halvings > 0) {
-            listener_.warning(fmt::format(
-                "slab {} has {} layers: with fewer, cells of its cap or filling would be inside out",
-                slab.hull.slab, slab.layers.layers));
+            listener_.warning(fmt::format("slab {} has {} layers: with fewer, cells of its cap or filling "
+                                          "would be inside out or too flat",
+                                          slab.hull.slab, slab.layers.layers));
         }
     }
 

@@ -6,6 +6,7 @@
 #include "slab/march/cap_reuse.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/progress.h"
+#include "slabhull/geometry/measures.h"
 #include "slabhull/slab/tangling.h"
 
 #include <fmt/format.h>
@@ -167,9 +168,18 @@ Sweep<D> checked_sweep(const Boundary<D>& boundary, const SpatialMesh<D>& cap, s
     return sweep;
 }
 
-constexpr int most_halvings = 6; ///< of layers, for an adapted cap
+constexpr int most_halvings = 6;   ///< of layers, for an adapted cap
+constexpr int most_for_angles = 2; ///< the same if only its angles ask for them
+
+/// Whether the smallest angle of an adapted cap is about the one aimed at, or no worse than it was.
+template<int D>
+bool keeps_angles(const SpatialMesh<D>& initial, const Slab<D>& slab, const AdaptOptions& options) {
+    const double now = slab.adapted->report.smallest_angle;
+    return now >= 0.75 * options.angle ||
+           now >= 0.9 * measure_solid<D>(initial.points, initial.cells).angles.smallest;
+}
 /// Sweeps the boundary and makes the terminating cap. Layers are halved while cells of an adapted cap would
-/// be inside out.
+/// be inside out, or its angles have become too small.
 template<int D>
 std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boundary<D>& boundary,
                                              std::vector<double> times, SlabSettings<D> settings,
@@ -180,24 +190,28 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
             NewCap<D> cap{make_cap<D>(initial.mesh(), sweep, settings, slab, clock), {}, 0};
             return {std::move(sweep), std::move(cap)};
         }
+        const std::size_t doubled = 2 * sweep.layers();
+        const bool last =
+            halvings == most_halvings || doubled > static_cast<std::size_t>(settings.layers.most);
         try {
             NewCap<D> cap = make_adapted_cap<D>(initial, sweep, settings, slab, clock);
             slab.adapted->report.halvings = halvings;
-            return {std::move(sweep), std::move(cap)};
+            if (last || halvings >= most_for_angles ||
+                keeps_angles<D>(initial.mesh(), slab, settings.adapt)) {
+                return {std::move(sweep), std::move(cap)};
+            }
         } catch (const InvertedCap&) {
-            const std::size_t doubled = 2 * sweep.layers();
-            if (halvings == most_halvings || doubled > static_cast<std::size_t>(settings.layers.most)) {
+            if (last) {
                 throw;
             }
-            if (settings.layers.automatic) {
-                settings.layers.at_least = static_cast<int>(doubled);
-            } else {
-                times = halved_levels(times);
-            }
+        }
+        if (settings.layers.automatic) {
+            settings.layers.at_least = static_cast<int>(doubled);
+        } else {
+            times = halved_levels(times);
         }
     }
 }
-
 } // namespace
 
 template<int D>
