@@ -5,6 +5,7 @@
 #include "slab/adapt/adapt_round.h"
 #include "slab/adapt/cell_quality.h"
 #include "slab/adapt/vertex_smoother.h"
+#include "slab/sweep/swept_first.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/progress.h"
 #include "slabhull/geometry/cap_motion.h"
@@ -118,11 +119,13 @@ private:
             5; // degrees: cells that are no good for a layer are mended whatever is aimed at
         const double good = quality_of_angle(std::max(least, 1.8 * options_.angle));
         result_.report.moved += smoother.run(good);
-        for (int pass = 1; pass < most_passes && !smoother.unsound().empty(); ++pass) {
+        std::vector<Index> unsound = smoother.unsound();
+        for (int pass = 1; pass < most_passes && !unsound.empty(); ++pass) {
             smoother.run(good);
+            unsound = smoother.unsound();
         }
-        if (const std::vector<Index> cells = smoother.unsound(); !cells.empty()) {
-            refuse(cells, layer);
+        if (!unsound.empty()) {
+            refuse(unsound, layer);
         }
     }
 
@@ -157,14 +160,7 @@ private:
     /// The mesh with the swept vertices first.
     void finish() {
         const std::size_t count = mesh_.now.size();
-        std::vector<Index> number(count, no_index);
-        Index next = 0;
-        for (const Index v : mesh_.boundary) {
-            number[v] = next++;
-        }
-        for (Index& n : number) {
-            n = n == no_index ? next++ : n;
-        }
+        const std::vector<Index> number = swept_first(count, mesh_.boundary);
         CapMesh<D>& cap = result_.mesh;
         cap.points.resize(count);
         result_.column.resize(count);

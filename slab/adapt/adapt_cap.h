@@ -6,6 +6,7 @@
 #include "slabhull/slab/adapt.h"
 #include "slabhull/topology/hull.h"
 #include "slabhull/topology/spatial_mesh.h"
+
 #include <span>
 #include <vector>
 
@@ -53,4 +54,5 @@ void give_new_tracks(TrackId first, Index columns, AdaptLog<D>& log);
 /// not lead to the hull's terminating cap.
 template<int D>
 AdaptLog<D> log_of_hull(const Hull<D>& hull);
+
 } // namespace slabhull

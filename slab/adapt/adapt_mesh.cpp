@@ -5,8 +5,6 @@
 #include "slabhull/core/index.h"
 
 #include <algorithm>
-#include <limits>
-
 namespace slabhull {
 
 template<int D>

@@ -5,7 +5,7 @@
 #include "slabhull/core/vector.h"
 #include "slabhull/geometry/measures.h"
 #include "slabhull/topology/spatial_mesh.h"
-
+#include "topology/complex/sorted_cell.h"
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -81,30 +81,18 @@ private:
         }
     }
 
-    void add_wall(Facet<D> outward) {
+    void add_wall(const Facet<D>& outward) {
         std::size_t on_boundary = 0;
         for (const Index v : outward) {
             on_boundary += mesh_.on_boundary[v];
         }
-        const bool odd = is_odd(outward);
-        std::sort(outward.begin(), outward.end());
-        add_staircase(outward, odd);
+        SortedCell<D - 1> facet = sort_cell<D - 1>(outward);
+        add_staircase(facet.vertices, facet.odd);
         if (on_boundary >= 2) {
-            std::reverse(outward.begin(), outward.end());
-            add_staircase(outward, odd != (D * (D - 1) / 2 % 2 == 1));
+            std::reverse(facet.vertices.begin(), facet.vertices.end());
+            add_staircase(facet.vertices, facet.odd != (D * (D - 1) / 2 % 2 == 1));
         }
     }
-
-    static bool is_odd(const Facet<D>& facet) {
-        bool odd = false;
-        for (std::size_t i = 0; i < D; ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                odd = odd != (facet[j] > facet[i]);
-            }
-        }
-        return odd;
-    }
-
     /// `odd`: whether the facet in this order is inward.
     void add_staircase(const Facet<D>& facet, bool odd) {
         for (std::size_t m = 0; m < D; ++m) {

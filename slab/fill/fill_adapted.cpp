@@ -9,7 +9,7 @@
 #include "slab/fill/wall_pieces.h"
 #include "slabhull/core/error.h"
 #include "slabhull/topology/adjacency.h"
-
+#include "topology/complex/sorted_cell.h"
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,6 @@ SlabColumns<D> columns_of_log(const Hull<D>& hull, const AdaptLog<D>& log, Filli
     };
     std::vector<TrackId> tracks(hull.points.size());
     hull.track_ids.copy(0, tracks.size(), tracks.data());
-    columns.on_boundary.assign(columns.count, 0);
     for (std::size_t v = 0; v < tracks.size(); ++v) {
         if (tracks[v] == no_track) {
             continue;
@@ -106,33 +105,25 @@ private:
         columns_.cells.resize(hull_.initial_cells);
         columns_.swept_facet.resize(hull_.initial_cells);
         for (std::size_t c = 0; c < hull_.initial_cells; ++c) {
-            std::array<std::size_t, D + 1> order;
-            std::iota(order.begin(), order.end(), std::size_t{0});
             Simplex<D> cell;
             for (std::size_t k = 0; k <= D; ++k) {
                 cell[k] = column_of_initial(hull_.cells[c][k]);
             }
-            std::sort(order.begin(), order.end(),
-                      [&](std::size_t a, std::size_t b) { return cell[a] < cell[b]; });
+            const SortedCell<D> sorted = sort_cell<D>(cell);
+            columns_.cells[c] = sorted.vertices;
             for (std::size_t k = 0; k <= D; ++k) {
-                const Index across = hull_.neighbors[c][order[k]];
-                columns_.cells[c][k] = cell[order[k]];
+                const Index across = hull_.neighbors[c][sorted.place[k]];
+                const bool inside = across < hull_.initial_cells;
                 columns_.swept_facet[c][k] =
-                    across < hull_.initial_cells
-                        ? no_index
-                        : static_cast<Index>((across - hull_.initial_cells) / hull_.cells_per_prism %
-                                             hull_.facet_patch.size());
-                if (columns_.swept_facet[c][k] != no_index) {
-                    side_.emplace_back(without<D>(sorted_columns(cell), k), columns_.swept_facet[c][k]);
+                    inside ? no_index
+                           : static_cast<Index>((across - hull_.initial_cells) / hull_.cells_per_prism %
+                                                hull_.facet_patch.size());
+                if (!inside) {
+                    side_.emplace_back(sorted.facet(k), columns_.swept_facet[c][k]);
                 }
             }
         }
         std::sort(side_.begin(), side_.end());
-    }
-
-    static Simplex<D> sorted_columns(Simplex<D> cell) {
-        std::sort(cell.begin(), cell.end());
-        return cell;
     }
 
     Index column_of_initial(Index vertex) {
@@ -192,27 +183,14 @@ private:
             cone_over(layer, {&cell, 1}, {&cell, 1}, centre, pieces);
             return;
         }
-        Simplex<D> corners = cell;
-        const bool odd = sort_corners(corners);
+        const SortedCell<D> sorted = sort_cell<D>(cell);
         for (std::size_t m = 0; m <= D; ++m) {
-            Simplex<D + 1> piece = staircase_piece<D>(columns_, layer, corners, m);
-            if (odd != ((D - m) % 2 == 1)) {
+            Simplex<D + 1> piece = staircase_piece<D>(columns_, layer, sorted.vertices, m);
+            if (sorted.odd != ((D - m) % 2 == 1)) {
                 std::swap(piece[0], piece[1]);
             }
             filling_.cells.push_back(piece);
         }
-    }
-
-    /// Sorts the columns of a cell; returns whether that is an odd permutation.
-    static bool sort_corners(Simplex<D>& cell) {
-        bool odd = false;
-        for (std::size_t i = 0; i <= D; ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                odd = odd != (cell[j] > cell[i]);
-            }
-        }
-        std::sort(cell.begin(), cell.end());
-        return odd;
     }
 
     /// Cones the cell between an operation's cells.

@@ -2,7 +2,7 @@
 #include "slab/fill/wall_pieces.h"
 
 #include "slab/fill/staircase.h"
-
+#include "topology/complex/sorted_cell.h"
 #include <algorithm>
 #include <array>
 
@@ -35,14 +35,8 @@ bool WallPieces<D>::meets_other_split(const Simplex<D>& cell, const SideFacets& 
 template<int D>
 void WallPieces<D>::append(std::size_t layer, std::span<const Facet<D>> facets, const SideFacets& side,
                            std::vector<Simplex<D>>& pieces) {
-    for (Facet<D> facet : facets) {
-        bool odd = false;
-        for (std::size_t i = 0; i < D; ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                odd = odd != (facet[j] > facet[i]);
-            }
-        }
-        std::sort(facet.begin(), facet.end());
+    for (const Facet<D>& outward : facets) {
+        const auto [facet, place, odd] = sort_cell<D - 1>(outward);
         if (const Index swept = swept_facet(facet, side); swept != no_index) {
             const Index first = walls_.first_cell(layer, swept);
             for (Index c = first; c < first + walls_.cells_per_wall(); ++c) {

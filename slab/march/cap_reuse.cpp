@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/march/cap_reuse.h"
 
+#include "slab/sweep/swept_first.h"
 #include "slabhull/geometry/cap_motion.h"
 
 #include <algorithm>
@@ -9,19 +10,6 @@
 namespace slabhull {
 
 namespace {
-
-/// Numbers of a cap's vertices with the swept ones first; the others keep their order.
-std::vector<Index> swept_first(std::size_t vertices, std::span<const Index> cap_vertex) {
-    std::vector<Index> number(vertices, no_index);
-    for (std::size_t v = 0; v < cap_vertex.size(); ++v) {
-        number[cap_vertex[v]] = static_cast<Index>(v);
-    }
-    auto next = static_cast<Index>(cap_vertex.size());
-    for (Index& n : number) {
-        n = n == no_index ? next++ : n;
-    }
-    return number;
-}
 
 template<int D>
 CapMesh<D> renumbered(const SpatialMesh<D>& cap, std::span<const Point<D>> points,

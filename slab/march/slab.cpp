@@ -24,7 +24,8 @@ template<int D>
 struct NewCap {
     CapMesh<D> mesh;
     std::vector<Index> column;
-    std::size_t columns = 0; ///< in all
+    std::size_t columns = 0;     ///< in all
+    std::vector<double> spacing; ///< targets on the boundary
 };
 
 template<int D>
@@ -33,16 +34,14 @@ NewCap<D> make_adapted_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const
     enter_stage("cap adapting");
     require_attainable<D>(sweep.at(0), settings.adapt.size, "adapt.size");
     initial.give_tracks(tracks_throughout(initial.mesh()));
-    const std::vector<double> spacing = sweep.boundary.mean_edges(sweep.boundary.start());
+    std::vector<double> spacing = sweep.boundary.mean_edges(sweep.boundary.start());
     AdaptedCap<D> adapted =
         adapt_cap<D>(initial.mesh(), initial.tracks(),
                      {sweep.boundary.mesh_vertices(), sweep.times, sweep.positions, spacing}, settings.adapt);
-    slab.hull.adapt_settings = settings_as_numbers(settings.adapt);
-    slab.hull.adapt_spacing = spacing;
     slab.cap_moved = true;
     slab.adapted.emplace(Adaptation<D>{adapted.report, std::move(adapted.log)});
     clock.book("cap adapting");
-    return {std::move(adapted.mesh), std::move(adapted.column), adapted.columns};
+    return {std::move(adapted.mesh), std::move(adapted.column), adapted.columns, std::move(spacing)};
 }
 
 /// The terminating cap: moved where that is wanted and good enough, else meshed.
@@ -187,7 +186,7 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
     for (int halvings = 0;; ++halvings) {
         Sweep<D> sweep = checked_sweep<D>(boundary, initial.mesh(), times, settings, slab, clock);
         if (settings.reuse != CapReuse::adapt) {
-            NewCap<D> cap{make_cap<D>(initial.mesh(), sweep, settings, slab, clock), {}, 0};
+            NewCap<D> cap{make_cap<D>(initial.mesh(), sweep, settings, slab, clock), {}, 0, {}};
             return {std::move(sweep), std::move(cap)};
         }
         const std::size_t doubled = 2 * sweep.layers();
@@ -212,6 +211,7 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
         }
     }
 }
+
 } // namespace
 
 template<int D>
@@ -228,10 +228,11 @@ Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int numb
         if (slab.adapted) {
             track_adapted<D>(cap, ids, slab.adapted->log, terminating);
         }
-        Hull<D> hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
-        hull.adapt_settings = std::move(slab.hull.adapt_settings);
-        hull.adapt_spacing = std::move(slab.hull.adapt_spacing);
-        slab.hull = std::move(hull);
+        slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
+        if (slab.adapted) {
+            slab.hull.adapt_settings = settings_as_numbers(settings.adapt);
+            slab.hull.adapt_spacing = std::move(cap.spacing);
+        }
         slab.terminating_facets.assign(boundary.facets().begin(), boundary.facets().end());
         slab.hull.slab = number;
         slab.projected = std::move(sweep.projected);
