@@ -13,5 +13,6 @@ void add_fill(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
 void add_slice(CLI::App& program, int& exit_code);
 void add_study(CLI::App& program, int& exit_code);
+void add_view(CLI::App& program, int& exit_code);
 
 } // namespace slabhull::tools

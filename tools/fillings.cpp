@@ -65,12 +65,21 @@ Array<std::int64_t> point_numbers(const io::Soup& mesh, const char* name) {
     return numbers;
 }
 
-/// Tetrahedra of points (x, y, t), as a filling's.
-io::SpaceTimeSoup read_tetrahedra(const std::string& in, const std::string& from) {
-    const io::Soup mesh = read_named(in, from);
+template<int D>
+void write(io::SpaceTimeSoup& soup, const std::string& out, const std::string& to) {
+    const std::string format = filling_format(out, to, D);
+    const Filling<D> filling = filling_to_write<D>(soup);
+    io::AtomicFiles files;
+    write_filling<D>(files, out, filling, format);
+    files.commit();
+}
+
+} // namespace
+
+io::SpaceTimeSoup filling_of_tetrahedra(const io::Soup& mesh) {
     const MeshArrays<3> arrays = mesh_of_soup<3>(mesh);
     io::SpaceTimeSoup soup;
-    soup.path = in;
+    soup.path = mesh.path;
     soup.dimension = 3;
     for (const Point<3>& point : arrays.points) {
         soup.points.insert(soup.points.end(), point.begin(), point.end());
@@ -83,17 +92,6 @@ io::SpaceTimeSoup read_tetrahedra(const std::string& in, const std::string& from
     soup.track_id = point_numbers(mesh, "track_id");
     return soup;
 }
-
-template<int D>
-void write(io::SpaceTimeSoup& soup, const std::string& out, const std::string& to) {
-    const std::string format = filling_format(out, to, D);
-    const Filling<D> filling = filling_to_write<D>(soup);
-    io::AtomicFiles files;
-    write_filling<D>(files, out, filling, format);
-    files.commit();
-}
-
-} // namespace
 
 bool tell_filling(const std::string& file, bool json) {
     if (!io::is_space_time_file(file)) {
@@ -110,7 +108,8 @@ bool converts_filling(const std::string& in, const std::string& out, const std::
 
 void convert_filling(const std::string& in, const std::string& from, const std::string& out,
                      const std::string& to) {
-    io::SpaceTimeSoup soup = io::is_space_time_file(in) ? io::read_space_time(in) : read_tetrahedra(in, from);
+    io::SpaceTimeSoup soup =
+        io::is_space_time_file(in) ? io::read_space_time(in) : filling_of_tetrahedra(read_named(in, from));
     soup.dimension == 3 ? write<2>(soup, out, to) : write<3>(soup, out, to);
 }
 

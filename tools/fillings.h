@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/io/soup.h"
+#include "slabhull/io/space_time_files.h"
+
 #include <optional>
 #include <string>
 
@@ -8,6 +11,9 @@ namespace slabhull::tools {
 
 /// Tells what is in a file that is a filling in space-time, see io::is_space_time_file(); false for others.
 bool tell_filling(const std::string& file, bool json);
+
+/// Tetrahedra of points (x, y, t), as a filling's. Throws InputError for other meshes.
+io::SpaceTimeSoup filling_of_tetrahedra(const io::Soup& mesh);
 
 /// Whether converting has to do with fillings: from such a file, or to a format that only they have.
 bool converts_filling(const std::string& in, const std::string& out, const std::string& to);

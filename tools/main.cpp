@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
     slabhull::tools::add_info(program, exit_code);
     slabhull::tools::add_slice(program, exit_code);
     slabhull::tools::add_study(program, exit_code);
+    slabhull::tools::add_view(program, exit_code);
     try {
         program.parse(argc, argv);
         return exit_code;

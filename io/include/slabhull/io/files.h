@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace slabhull::io {
 
@@ -220,6 +221,8 @@ struct SeriesEntry {
 /// become parts: entries with the same time are numbered 0, 1 .. in their order. Throws UsageError for a time
 /// that is not finite or a name with control characters, which XML cannot hold.
 void write_pvd(const std::filesystem::path& path, std::span<const SeriesEntry> entries);
+/// The data sets of a .pvd in their order, each with the .pvd's folder in front of a relative path.
+std::vector<SeriesEntry> read_pvd(const std::filesystem::path& path);
 
 /// Writes a small text file, also complete or not at all.
 void write_text(const std::filesystem::path& path, const std::string& text);

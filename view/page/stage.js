@@ -1,0 +1,288 @@
+// What is drawn: buffers of facets and of lines, and panes with a scene and a camera each.
+
+const facetShader = {
+    vertex: `
+        attribute vec3 paint;
+        attribute vec3 edge;
+        varying vec3 vPaint;
+        varying vec3 vEdge;
+        varying vec3 vPlace;
+        varying vec3 vView;
+        void main() {
+            vPaint = paint;
+            vEdge = edge;
+            vPlace = position;
+            vec4 view = modelViewMatrix * vec4(position, 1.0);
+            vView = view.xyz;
+            gl_Position = projectionMatrix * view;
+        }`,
+    fragment: `
+        uniform vec4 clip;      // seen is where clip.xyz . x <= clip.w
+        uniform float lit;
+        uniform float edges;    // how dark they are
+        uniform vec3 edgePaint;
+        uniform float opacity;
+        varying vec3 vPaint;
+        varying vec3 vEdge;
+        varying vec3 vPlace;
+        varying vec3 vView;
+        float nearEdge() {
+            vec3 width = fwidth(vEdge);
+            vec3 away = smoothstep(vec3(0.0), 1.2 * width, vEdge);
+            float small = max(max(width.x, width.y), width.z); // facets of few pixels would be all edge
+            return (1.0 - min(min(away.x, away.y), away.z)) * clamp(1.5 - 4.0 * small, 0.0, 1.0);
+        }
+        void main() {
+            if (dot(clip.xyz, vPlace) > clip.w) {
+                discard;
+            }
+            vec3 normal = normalize(cross(dFdx(vView), dFdy(vView)));
+            float light = 0.42 + 0.58 * max(0.0, dot(normal, normalize(vec3(0.35, 0.5, 0.9))));
+            vec3 seen = vPaint * mix(1.0, light, lit);
+            gl_FragColor = vec4(mix(seen, edgePaint, edges * nearEdge()), opacity);
+        }`,
+};
+
+const lineShader = {
+    vertex: `
+        attribute vec3 other;
+        attribute float across;
+        attribute vec3 paint;
+        uniform vec2 size;      // of the pane, in pixels
+        uniform float width;
+        varying vec3 vPaint;
+        void main() {
+            vPaint = paint;
+            vec4 here = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+            vec4 there = projectionMatrix * modelViewMatrix * vec4(other, 1.0);
+            vec2 along = (there.xy / there.w - here.xy / here.w) * size;
+            along = length(along) > 0.0 ? normalize(along) : vec2(1.0, 0.0);
+            vec2 aside = vec2(-along.y, along.x) * across - 0.4 * along;
+            gl_Position = here;
+            gl_Position.xy += aside * width / size * here.w;
+            gl_Position.z -= 0.0005 * here.w;
+        }`,
+    fragment: `
+        varying vec3 vPaint;
+        void main() {
+            gl_FragColor = vec4(vPaint, 1.0);
+        }`,
+};
+
+function facetMaterial({lit, side}) {
+    return new THREE.ShaderMaterial({
+        vertexShader: facetShader.vertex,
+        fragmentShader: facetShader.fragment,
+        extensions: {derivatives: true},
+        side,
+        uniforms: {
+            clip: {value: new THREE.Vector4(0, 0, 0, 1)},
+            lit: {value: lit ? 1 : 0},
+            edges: {value: 0},
+            edgePaint: {value: new THREE.Color(0, 0, 0)},
+            opacity: {value: 1},
+        },
+    });
+}
+
+function lineMaterial(width) {
+    return new THREE.ShaderMaterial({
+        vertexShader: lineShader.vertex,
+        fragmentShader: lineShader.fragment,
+        side: THREE.DoubleSide,
+        uniforms: {size: {value: new THREE.Vector2(1, 1)}, width: {value: width * window.devicePixelRatio}},
+    });
+}
+
+/// Arrays of a geometry that is filled anew again and again. They grow, never shrink.
+class GrowingGeometry {
+    constructor(material, layout) { // layout: [name, components, array type, normalised], of each vertex
+        this.layout = layout;
+        this.vertices = 0;
+        this.capacity = 0;
+        this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
+        this.mesh.frustumCulled = false;
+        this.reserve(1024);
+    }
+
+    reserve(vertices) {
+        if (vertices <= this.capacity) {
+            return;
+        }
+        this.capacity = Math.max(vertices, 2 * this.capacity);
+        const old = this.mesh.geometry;
+        this.mesh.geometry = new THREE.BufferGeometry();
+        for (const [name, components, type, normalised] of this.layout) {
+            const array = new type(this.capacity * components);
+            if (old.attributes[name]) {
+                array.set(old.attributes[name].array);
+            }
+            const attribute = new THREE.BufferAttribute(array, components, normalised);
+            attribute.setUsage(THREE.DynamicDrawUsage);
+            this.mesh.geometry.setAttribute(name, attribute);
+            this[name] = array;
+        }
+        old.dispose();
+    }
+
+    clear() {
+        this.vertices = 0;
+    }
+
+    /// To be called when all is in place.
+    finish() {
+        for (const [name, components] of this.layout) {
+            const attribute = this.mesh.geometry.attributes[name];
+            attribute.updateRange = {offset: 0, count: this.vertices * components};
+            attribute.needsUpdate = true;
+        }
+        this.mesh.geometry.setDrawRange(0, this.vertices);
+        this.mesh.visible = this.vertices > 0;
+    }
+}
+
+/// Triangles with a colour and a cell each, and edges that are drawn or not.
+class Facets extends GrowingGeometry {
+    constructor(material) {
+        super(material, [["position", 3, Float32Array, false], ["paint", 4, Uint8Array, true],
+            ["edge", 4, Uint8Array, true]]);
+        this.cells = new Int32Array(1024);
+    }
+
+    /// x: 9 coordinates. drawn[i]: whether the edge opposite to corner i is to be seen.
+    push(x, cell, colour, drawn) {
+        const facet = this.vertices / 3;
+        this.reserve(this.vertices + 3);
+        if (facet >= this.cells.length) {
+            const cells = new Int32Array(2 * facet);
+            cells.set(this.cells);
+            this.cells = cells;
+        }
+        this.cells[facet] = cell;
+        this.position.set(x, 9 * facet);
+        for (let k = 0, at = 12 * facet; k < 3; ++k, at += 4) {
+            for (let c = 0; c < 3; ++c) {
+                this.paint[at + c] = colour[c];
+                this.edge[at + c] = k === c || !drawn[c] ? 255 : 0;
+            }
+        }
+        this.vertices += 3;
+    }
+
+    get count() {
+        return this.vertices / 3;
+    }
+}
+
+/// Segments of a width in pixels, each two triangles.
+class Lines extends GrowingGeometry {
+    constructor(width) {
+        super(lineMaterial(width), [["position", 3, Float32Array, false], ["other", 3, Float32Array, false],
+            ["across", 1, Float32Array, false], ["paint", 4, Uint8Array, true]]);
+        this.cells = [];
+    }
+
+    clear() {
+        super.clear();
+        this.cells = [];
+    }
+
+    push(from, to, cell, colour) {
+        this.reserve(this.vertices + 6);
+        this.cells.push(cell);
+        for (const [here, there, across] of [[from, to, 1], [from, to, -1], [to, from, 1],
+            [to, from, 1], [to, from, -1], [from, to, 1]]) {
+            this.position.set(here, 3 * this.vertices);
+            this.other.set(there, 3 * this.vertices);
+            this.across[this.vertices] = across;
+            this.paint.set(colour, 4 * this.vertices);
+            this.vertices += 1;
+        }
+    }
+
+    get count() {
+        return this.vertices / 6;
+    }
+}
+
+/// A part of the window with a scene, a camera that the user moves, and words at places of the scene.
+class Pane {
+    constructor(element, camera, controls) {
+        this.element = element;
+        this.scene = new THREE.Scene();
+        this.camera = camera;
+        this.controls = controls;
+        this.lines = [];
+        this.words = [];
+        controls.addEventListener("change", () => stage.ask());
+    }
+
+    addLines(lines) {
+        this.lines.push(lines);
+        this.scene.add(lines.mesh);
+        return lines;
+    }
+
+    addWord(text, place) {
+        const element = document.createElement("span");
+        element.className = "word";
+        element.textContent = text;
+        this.element.append(element);
+        this.words.push({element, place});
+    }
+
+    placeWords(width, height) {
+        for (const {element, place} of this.words) {
+            const at = place.clone().project(this.camera);
+            element.style.transform = `translate(${(at.x + 1) / 2 * width}px, ${(1 - at.y) / 2 * height}px)`;
+        }
+    }
+
+    draw(renderer, canvas) {
+        const {left, top, width, height} = this.element.getBoundingClientRect();
+        if (width < 1 || height < 1) {
+            return;
+        }
+        const below = canvas.bottom - top - height;
+        this.resize(width, height);
+        for (const lines of this.lines) {
+            lines.mesh.material.uniforms.size.value.set(width * window.devicePixelRatio,
+                height * window.devicePixelRatio);
+        }
+        this.placeWords(width, height);
+        renderer.setViewport(left - canvas.left, below, width, height);
+        renderer.setScissor(left - canvas.left, below, width, height);
+        renderer.render(this.scene, this.camera);
+    }
+}
+
+/// The canvas behind all panes. It is drawn when something has asked for it.
+const stage = {
+    panes: [],
+    asked: false,
+
+    start(canvas) {
+        this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true});
+        this.renderer.setPixelRatio(window.devicePixelRatio);
+        this.renderer.setScissorTest(true);
+        new ResizeObserver(() => this.ask()).observe(canvas.parentElement);
+    },
+
+    ask() {
+        if (!this.asked) {
+            this.asked = true;
+            requestAnimationFrame(() => this.draw());
+        }
+    },
+
+    draw() {
+        this.asked = false;
+        const canvas = this.renderer.domElement;
+        const box = canvas.parentElement.getBoundingClientRect();
+        if (this.width !== box.width || this.height !== box.height) {
+            [this.width, this.height] = [box.width, box.height];
+            this.renderer.setSize(box.width, box.height);
+        }
+        this.panes.forEach(pane => pane.draw(this.renderer, box));
+    },
+};
