@@ -76,7 +76,8 @@ public:
 
 private:
     std::string title() const {
-        const std::string name = std::filesystem::path{command_.files.front()}.filename().string();
+        const std::filesystem::path first = command_.files.front();
+        const std::string name = (first.parent_path().filename() / first.filename()).string();
         return command_.files.size() == 1 ? name
                                           : fmt::format("{} and {} more", name, command_.files.size() - 1);
     }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page is page.html with the style, the data, three.js and the scripts put where it names them. Data are
-// base64 of arrays in the machine's byte order, which is little-endian here and in every browser.
+// base64 of numbers in the machine's byte order, which is little-endian here and in every browser, or of what
+// packing.h makes of them.
 #include "slabhull/view/view_page.h"
 
 #include "slabhull/core/error.h"
 #include "view/base64_writer.h"
+#include "view/packing.h"
 #include "view/page_parts.h"
 #include "view/scene_builder.h"
 
@@ -30,27 +32,27 @@ std::string as_script(const Json& json) {
     return text;
 }
 
+/// Bytes in script elements of a size that browsers read fast.
+void write_bytes(io::AtomicFile& file, const char* name, std::span<const std::byte> bytes) {
+    constexpr std::size_t piece = 3 << 18; // no padding but in the last
+    do {
+        const auto part = bytes.first(std::min(bytes.size(), piece));
+        file.write(fmt::format("<script type=\"text/plain\" data-of=\"{}\">", name));
+        write_base64(file, part);
+        file.write("</script>\n");
+        bytes = bytes.subspan(part.size());
+    } while (!bytes.empty());
+}
+
 template<class T>
-void write_array(io::AtomicFile& file, const char* name, const char* type, const Array<T>& values) {
-    file.write(fmt::format("<script type=\"text/plain\" id=\"data-{}\" data-type=\"{}\">", name, type));
-    write_base64(file, std::as_bytes(std::span{values}));
-    file.write("</script>\n");
+void write_array(io::AtomicFile& file, const char* name, const Array<T>& values) {
+    write_bytes(file, name, std::as_bytes(std::span{values}));
 }
 
-template<class Narrow, class T>
-Array<Narrow> converted(const Array<T>& values) {
-    Array<Narrow> narrow(values.size());
-    std::transform(values.begin(), values.end(), narrow.begin(),
-                   [](T value) { return static_cast<Narrow>(value); });
-    return narrow;
-}
-
-/// Ids in 4 bytes where they fit, else as doubles, which are exact up to 2^53.
-void write_ids(io::AtomicFile& file, const char* name, const Array<std::int64_t>& ids) {
-    const bool narrow =
-        std::all_of(ids.begin(), ids.end(), [](std::int64_t id) { return std::in_range<std::int32_t>(id); });
-    narrow ? write_array(file, name, "Int32", converted<std::int32_t>(ids))
-           : write_array(file, name, "Float64", converted<double>(ids));
+void write_cells(io::AtomicFile& file, const std::string& name, const Array<Index>& vertices) {
+    const PackedCells packed = pack_cells(vertices);
+    write_array(file, (name + "_codes").c_str(), packed.codes);
+    write_array(file, (name + "_far").c_str(), packed.far);
 }
 
 /// The times that there are, and for each vertex the number of its own: equal ones are the same number.
@@ -60,27 +62,23 @@ void write_times(io::AtomicFile& file, const Scene& scene) {
     times.erase(
         std::unique(times.begin(), times.end(), [&](double a, double b) { return b - a <= scene.tolerance; }),
         times.end());
-    Array<Index> number(scene.times.size());
+    Array<std::int64_t> number(scene.times.size());
     std::transform(scene.times.begin(), scene.times.end(), number.begin(), [&](double time) {
-        return static_cast<Index>(std::upper_bound(times.begin(), times.end(), time) - times.begin() - 1);
+        return std::upper_bound(times.begin(), times.end(), time) - times.begin() - 1;
     });
-    write_array(file, "times", "Float64", times);
-    times.size() <= std::numeric_limits<std::uint16_t>::max()
-        ? write_array(file, "time_of_vertex", "Uint16", converted<std::uint16_t>(number))
-        : write_array(file, "time_of_vertex", "Uint32", number);
+    write_array(file, "times", times);
+    write_array(file, "time_of_vertex", pack_differences(number));
 }
 
 /// The places of the cells' patches in the list.
 void write_patches(io::AtomicFile& file, const Scene& scene, const PatchList& patches) {
-    Array<std::uint16_t> place(scene.side_patch.size());
+    Array<std::int64_t> place(scene.side_patch.size());
     std::transform(scene.side_patch.begin(), scene.side_patch.end(), place.begin(), [&](PatchNumber number) {
         const auto at = std::lower_bound(patches.begin(), patches.end(), number,
                                          [](const Patch& patch, PatchNumber n) { return patch.number < n; });
-        return static_cast<std::uint16_t>(at - patches.begin());
+        return at - patches.begin();
     });
-    patches.size() <= std::numeric_limits<std::uint8_t>::max()
-        ? write_array(file, "side_patch", "Uint8", converted<std::uint8_t>(place))
-        : write_array(file, "side_patch", "Uint16", place);
+    write_array(file, "side_patch", pack_runs(place));
 }
 
 /// The patches that the side has, by number, with the names that files gave.
@@ -125,6 +123,7 @@ Json head_of(const std::string& title, const Scene& scene, const PatchList& patc
             {"filled", scene.filled},
             {"centre", scene.centre},
             {"tolerance", scene.tolerance},
+            {"vertices", scene.times.size()},
             {"patches", std::move(list)},
             {"slabs", slabs_as_json(scene)},
             {"angles", scene.angles},
@@ -136,13 +135,13 @@ void write_data(io::AtomicFile& file, const std::string& title, const Scene& sce
     const PatchList patches = patches_shown(scene);
     file.write("<script type=\"application/json\" id=\"data-head\">" +
                as_script(head_of(title, scene, patches, notes)) + "</script>\n");
-    write_array(file, "points", "Float32", scene.points);
+    write_array(file, "points", scene.points);
     write_times(file, scene);
-    write_ids(file, "ids", scene.ids);
-    write_ids(file, "tracks", scene.tracks);
-    write_array(file, "side", "Uint32", scene.side);
+    write_array(file, "ids", pack_differences(scene.ids));
+    write_array(file, "tracks", pack_differences(scene.tracks));
+    write_cells(file, "side", scene.side);
     write_patches(file, scene, patches);
-    write_array(file, "inside", "Uint32", scene.inside);
+    write_cells(file, "inside", scene.inside);
 }
 
 } // namespace

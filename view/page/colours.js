@@ -2,7 +2,6 @@
 
 const palette = [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233],
     [143, 101, 63], [120, 94, 240]];
-const outerColour = [150, 160, 170];
 const speedColours = [[40, 75, 190], [120, 155, 230], [222, 222, 218], [235, 140, 110], [180, 20, 40]];
 
 /// The patch that reaches farthest in all directions, the outer boundary; -1 where no single one does.
@@ -31,12 +30,10 @@ const bounds = {
     most: Array.from({length: 3}, (_, k) => k < D ? outer.box[k] : 0),
 };
 
-const patchColours = head.patches.map((_, k) => {
-    if (k === outer.patch) {
-        return outerColour;
-    }
-    return palette[(outer.patch >= 0 && k > outer.patch ? k - 1 : k) % palette.length];
-});
+/// The outer boundary has the theme's own colour.
+function patchColour(k) {
+    return k === outer.patch ? theme.outer : palette[(outer.patch >= 0 && k > outer.patch ? k - 1 : k) % palette.length];
+}
 
 /// The colour of a speed from -largest to largest.
 function speedColour(speed, largest) {

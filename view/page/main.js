@@ -1,8 +1,10 @@
 // The state of the page and what changes it.
 
 const themes = {
-    light: {inside: [226, 214, 184], edge: [0.1, 0.13, 0.16], mark: [20, 20, 20], instant: [20, 24, 30]},
-    dark: {inside: [128, 118, 92], edge: [0.05, 0.06, 0.08], mark: [255, 255, 255], instant: [245, 247, 250]},
+    light: {stage: 0xf4f6f8, outer: [178, 187, 196], inside: [236, 224, 194], solid: [216, 224, 232], domain: [222, 232, 241],
+        edge: [0.1, 0.13, 0.16], mark: [20, 20, 20], instant: [20, 24, 30]},
+    dark: {stage: 0x1b2027, outer: [98, 108, 119], inside: [66, 76, 88], solid: [72, 82, 94], domain: [40, 51, 62],
+        edge: [0.03, 0.04, 0.05], mark: [255, 255, 255], instant: [245, 247, 250]},
 };
 let theme = themes.light;
 
@@ -27,7 +29,7 @@ const state = {
     },
 
     colourOf(cell) {
-        return this.colour === "patch" ? patchColours[sidePatch[cell]]
+        return this.colour === "patch" ? patchColour(sidePatch[cell])
             : speedColour(speeds.of[cell], speeds.largest);
     },
 };
@@ -79,7 +81,7 @@ const secondsOfPlay = 8; // from the first time to the last
 
 function play(on) {
     state.playing = on;
-    element("play").textContent = on ? "⏸" : "▶";
+    document.body.classList.toggle("playing", on);
     if (on && state.time >= span.last) {
         show(span.first);
     }
@@ -143,6 +145,14 @@ function togglePanel() {
     stage.ask();
 }
 
+function showAll() {
+    for (const pane of stage.panes) {
+        pane.moved = false;
+        pane.reset();
+    }
+    stage.ask();
+}
+
 function otherTheme() {
     setTheme(theme === themes.dark ? "light" : "dark");
 }
@@ -157,7 +167,7 @@ const keys = {
     e: () => setSwitch("edges", !state.edges),
     w: () => setSwitch("cull", !state.cull),
     x: () => D === 3 ? setSwitch("clip", !state.clip.on) : setSwitch("inside", !state.inside),
-    r: () => views.forEach(view => view.reset()),
+    r: showAll,
     l: otherTheme,
     m: togglePanel,
     "?": () => element("help").showModal(),

@@ -46,9 +46,7 @@ const panel = {
                 state.shown[k] = box.checked;
                 repaint();
             });
-            const swatch = document.createElement("i");
-            swatch.style.background = cssColour(patchColours[k]);
-            label.append(box, swatch, withText("span", patch.name));
+            label.append(box, document.createElement("i"), withText("span", patch.name));
             label.title = `patch ${patch.number}`;
             const item = document.createElement("li");
             item.append(label);
@@ -61,8 +59,9 @@ const panel = {
         element("by_patch").setAttribute("aria-pressed", !bySpeed);
         element("by_speed").setAttribute("aria-pressed", bySpeed);
         element("speed_legend").hidden = !bySpeed;
-        document.querySelectorAll("#patches i").forEach(swatch => {
+        document.querySelectorAll("#patches i").forEach((swatch, k) => {
             swatch.hidden = bySpeed;
+            swatch.style.background = cssColour(patchColour(k));
         });
         if (bySpeed) {
             const largest = speeds.need().largest;

@@ -28,7 +28,7 @@ const facetShader = {
         varying vec3 vView;
         float nearEdge() {
             vec3 width = fwidth(vEdge);
-            vec3 away = smoothstep(vec3(0.0), 1.2 * width, vEdge);
+            vec3 away = min(vEdge / max(1.2 * width, vec3(1e-4)), 1.0); // no width: an edge that is not drawn
             float small = max(max(width.x, width.y), width.z); // facets of few pixels would be all edge
             return (1.0 - min(min(away.x, away.y), away.z)) * clamp(1.5 - 4.0 * small, 0.0, 1.0);
         }
@@ -37,7 +37,7 @@ const facetShader = {
                 discard;
             }
             vec3 normal = normalize(cross(dFdx(vView), dFdy(vView)));
-            float light = 0.42 + 0.58 * max(0.0, dot(normal, normalize(vec3(0.35, 0.5, 0.9))));
+            float light = 0.52 + 0.48 * max(0.0, dot(normal, normalize(vec3(0.35, 0.5, 0.9))));
             vec3 seen = vPaint * mix(1.0, light, lit);
             gl_FragColor = vec4(mix(seen, edgePaint, edges * nearEdge()), opacity);
         }`,
@@ -48,7 +48,7 @@ const lineShader = {
         attribute vec3 other;
         attribute float across;
         attribute vec3 paint;
-        uniform vec2 size;      // of the pane, in pixels
+        uniform vec2 size;      // of the pane, in pixels of CSS
         uniform float width;
         varying vec3 vPaint;
         void main() {
@@ -85,12 +85,33 @@ function facetMaterial({lit, side}) {
     });
 }
 
+/// Turns a bit of each pixel over for each facet there, seen or not: it ends as 1 where their number is odd, which is
+/// inside a closed boundary. Draws nothing.
+function parityMaterial(clip) {
+    const material = facetMaterial({lit: false, side: THREE.DoubleSide});
+    material.uniforms.clip = clip;
+    material.colorWrite = material.depthWrite = material.depthTest = false;
+    material.stencilWrite = true;
+    material.stencilFunc = THREE.AlwaysStencilFunc;
+    material.stencilZPass = material.stencilZFail = THREE.InvertStencilOp;
+    return material;
+}
+
+/// Draws where that bit is 1.
+function insideMaterial() {
+    const material = facetMaterial({lit: false, side: THREE.DoubleSide});
+    material.stencilWrite = true;
+    material.stencilRef = 0;
+    material.stencilFunc = THREE.NotEqualStencilFunc;
+    return material;
+}
+
 function lineMaterial(width) {
     return new THREE.ShaderMaterial({
         vertexShader: lineShader.vertex,
         fragmentShader: lineShader.fragment,
         side: THREE.DoubleSide,
-        uniforms: {size: {value: new THREE.Vector2(1, 1)}, width: {value: width * window.devicePixelRatio}},
+        uniforms: {size: {value: new THREE.Vector2(1, 1)}, width: {value: width}},
     });
 }
 
@@ -147,6 +168,35 @@ class Facets extends GrowingGeometry {
         super(material, [["position", 3, Float32Array, false], ["paint", 4, Uint8Array, true],
             ["edge", 4, Uint8Array, true]]);
         this.cells = new Int32Array(1024);
+        this.darkness = 0; // of edges
+    }
+
+    setEdges(darkness, colour) {
+        this.darkness = darkness;
+        this.mesh.material.uniforms.edgePaint.value.setRGB(...colour);
+    }
+
+    /// Edges fade where most facets are too small on the screen for them. `scale` is pixels by length.
+    fadeEdges(scale) {
+        this.mesh.material.uniforms.edges.value =
+            this.darkness * Math.min(1, Math.max(0, (scale * this.size - 3) / 8));
+    }
+
+    finish() {
+        super.finish();
+        this.size = this.meanSize();
+    }
+
+    /// Mean length of an edge, of a few hundred facets.
+    meanSize() {
+        const step = Math.ceil(this.count / 500);
+        let sum = 0;
+        let edges = 0;
+        for (let facet = 0; facet < this.count; facet += step, ++edges) {
+            const at = 9 * facet;
+            sum += Math.hypot(...[0, 1, 2].map(k => this.position[at + 3 + k] - this.position[at + k]));
+        }
+        return edges > 0 ? sum / edges : 0;
     }
 
     /// x: 9 coordinates. drawn[i]: whether the edge opposite to corner i is to be seen.
@@ -213,8 +263,19 @@ class Pane {
         this.camera = camera;
         this.controls = controls;
         this.lines = [];
+        this.facets = [];
         this.words = [];
+        this.moved = false; // by the user
         controls.addEventListener("change", () => stage.ask());
+        controls.addEventListener("start", () => {
+            this.moved = true;
+        });
+    }
+
+    addFacets(facets) {
+        this.facets.push(facets);
+        this.scene.add(facets.mesh);
+        return facets;
     }
 
     addLines(lines) {
@@ -223,9 +284,9 @@ class Pane {
         return lines;
     }
 
-    addWord(text, place) {
+    addWord(text, place, before = false) { // the text ends at the place, else it begins there
         const element = document.createElement("span");
-        element.className = "word";
+        element.className = before ? "word before" : "word";
         element.textContent = text;
         this.element.append(element);
         this.words.push({element, place});
@@ -234,7 +295,20 @@ class Pane {
     placeWords(width, height) {
         for (const {element, place} of this.words) {
             const at = place.clone().project(this.camera);
-            element.style.transform = `translate(${(at.x + 1) / 2 * width}px, ${(1 - at.y) / 2 * height}px)`;
+            element.style.left = `${(at.x + 1) / 2 * width}px`;
+            element.style.top = `${(1 - at.y) / 2 * height}px`;
+        }
+    }
+
+    /// Shows the whole again in another size, unless the user has chosen what to see.
+    fitSize(width, height) {
+        if (this.width === width && this.height === height) {
+            return;
+        }
+        [this.width, this.height] = [width, height];
+        this.resize(width, height);
+        if (!this.moved) {
+            this.reset();
         }
     }
 
@@ -244,10 +318,10 @@ class Pane {
             return;
         }
         const below = canvas.bottom - top - height;
-        this.resize(width, height);
+        this.fitSize(width, height);
+        this.facets.forEach(facets => facets.fadeEdges(this.pixelsByLength(height)));
         for (const lines of this.lines) {
-            lines.mesh.material.uniforms.size.value.set(width * window.devicePixelRatio,
-                height * window.devicePixelRatio);
+            lines.mesh.material.uniforms.size.value.set(width, height);
         }
         this.placeWords(width, height);
         renderer.setViewport(left - canvas.left, below, width, height);
@@ -256,14 +330,22 @@ class Pane {
     }
 }
 
+/// Whether the browser draws by its processor. Smooth edges then take most of the time.
+function isSoftware() {
+    const gl = document.createElement("canvas").getContext("webgl");
+    const names = gl && gl.getExtension("WEBGL_debug_renderer_info");
+    return names !== null && /swiftshader|llvmpipe|software/i.test(gl.getParameter(names.UNMASKED_RENDERER_WEBGL));
+}
+
 /// The canvas behind all panes. It is drawn when something has asked for it.
 const stage = {
     panes: [],
     asked: false,
+    ratio: window.devicePixelRatio, // pixels drawn for each of CSS
+    software: isSoftware(),
 
     start(canvas) {
-        this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true});
-        this.renderer.setPixelRatio(window.devicePixelRatio);
+        this.renderer = new THREE.WebGLRenderer({canvas, antialias: !this.software});
         this.renderer.setScissorTest(true);
         new ResizeObserver(() => this.ask()).observe(canvas.parentElement);
     },
@@ -277,12 +359,21 @@ const stage = {
 
     draw() {
         this.asked = false;
-        const canvas = this.renderer.domElement;
-        const box = canvas.parentElement.getBoundingClientRect();
-        if (this.width !== box.width || this.height !== box.height) {
-            [this.width, this.height] = [box.width, box.height];
+        this.drawAt(window.devicePixelRatio);
+        clearTimeout(this.timer);
+        if (this.software) {
+            this.timer = setTimeout(() => this.drawAt(2 * window.devicePixelRatio), 400); // smooth when all is at rest
+        }
+    },
+
+    drawAt(ratio) {
+        const box = this.renderer.domElement.parentElement.getBoundingClientRect();
+        if (this.width !== box.width || this.height !== box.height || this.ratio !== ratio) {
+            [this.width, this.height, this.ratio] = [box.width, box.height, ratio];
+            this.renderer.setPixelRatio(ratio);
             this.renderer.setSize(box.width, box.height);
         }
+        this.renderer.setClearColor(theme.stage);
         this.panes.forEach(pane => pane.draw(this.renderer, box));
     },
 };

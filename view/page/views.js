@@ -17,6 +17,13 @@ function pushBox(lines, least, most) {
     lines.finish();
 }
 
+/// A quadrilateral without edges, of no cell.
+function pushQuad(facets, [a, b, c, d], colour) {
+    const noEdges = [false, false, false];
+    facets.push([...a, ...b, ...c], -1, colour, noEdges);
+    facets.push([...a, ...c, ...d], -1, colour, noEdges);
+}
+
 function perspectivePane(element) {
     const camera = new THREE.PerspectiveCamera(28, 1, 0.01, 1000);
     camera.up.set(0, 0, 1);
@@ -25,34 +32,52 @@ function perspectivePane(element) {
     pane.controls.screenSpacePanning = true;
     pane.resize = (width, height) => {
         camera.aspect = width / height;
-        camera.fov = 28 * Math.max(1, Math.min(2.2, height / width));
         camera.updateProjectionMatrix();
     };
-    pane.fit = (centre, radius, direction) => {
-        const distance = 1.06 * radius / Math.sin(THREE.Math.degToRad(camera.fov / 2));
-        camera.near = distance / 200;
-        camera.far = distance * 20;
-        camera.position.copy(direction).setLength(distance).add(centre);
-        pane.controls.target.copy(centre);
-        pane.controls.update();
-        stage.ask();
-    };
+    pane.pixelsByLength = height => height / 2 / Math.tan(THREE.Math.degToRad(camera.fov / 2)) /
+        camera.position.distanceTo(pane.controls.target);
     return pane;
+}
+
+/// Looks at a box from a direction, as near as all its corners allow.
+function fitCamera({camera, controls}, least, most, direction, margin = 0.14) {
+    const box = new THREE.Box3(new THREE.Vector3(...least), new THREE.Vector3(...most));
+    const towards = direction.clone().normalize();
+    const right = new THREE.Vector3().crossVectors(camera.up, towards).normalize();
+    const above = new THREE.Vector3().crossVectors(towards, right);
+    const slope = (1 - margin) * Math.tan(THREE.Math.degToRad(camera.fov / 2));
+    const centre = box.getCenter(new THREE.Vector3());
+    let distance = 0;
+    for (let bits = 0; bits < 8; ++bits) {
+        const corner = new THREE.Vector3(...["x", "y", "z"].map((axis, k) => (bits >> k & 1 ? box.max : box.min)[axis]));
+        corner.sub(centre);
+        const across = Math.max(Math.abs(corner.dot(above)), Math.abs(corner.dot(right)) / camera.aspect);
+        distance = Math.max(distance, corner.dot(towards) + across / slope);
+    }
+    [camera.near, camera.far] = [distance / 100, distance * 20];
+    camera.position.copy(towards).multiplyScalar(distance).add(centre);
+    controls.target.copy(centre);
+    controls.update();
 }
 
 /// D = 3: facets seen from inside the domain, so that near walls do not hide what is behind them.
 class SolidView {
     constructor(element) {
         this.pane = perspectivePane(element);
-        this.facets = new Facets(facetMaterial({lit: true, side: THREE.BackSide}));
-        this.inside = new Facets(facetMaterial({lit: false, side: THREE.DoubleSide}));
-        this.pane.scene.add(this.facets.mesh, this.inside.mesh);
+        this.facets = this.pane.addFacets(new Facets(facetMaterial({lit: true, side: THREE.BackSide})));
+        this.inside = this.pane.addFacets(new Facets(facetMaterial({lit: false, side: THREE.DoubleSide})));
+        this.fill = this.pane.addFacets(new Facets(insideMaterial())); // the plane in the domain, where no cells are known
+        this.parity = new THREE.Mesh(this.facets.mesh.geometry, parityMaterial(this.facets.mesh.material.uniforms.clip));
+        this.parity.frustumCulled = false;
+        this.parity.renderOrder = 1;
+        this.fill.mesh.renderOrder = 2;
+        this.pane.scene.add(this.parity);
         pushBox(this.pane.addLines(new Lines(1)), bounds.least, bounds.most);
         this.mark = this.pane.addLines(new Lines(3));
         this.cutter = new PlaneCut();
         this.drawn = [true, true, true];
         ["x", "y", "z"].forEach((axis, k) => this.pane.addWord(axis, this.axisEnd(k)));
-        this.reset();
+        this.pane.reset = () => fitCamera(this.pane, bounds.least, bounds.most, new THREE.Vector3(0.5, -0.8, 0.42));
     }
 
     /// A little beyond the end of the box's edge along an axis.
@@ -62,14 +87,8 @@ class SolidView {
         return place;
     }
 
-    reset() {
-        this.pane.fit(centreOfBounds, extents.length() / 2, new THREE.Vector3(0.5, -0.8, 0.42));
-    }
-
     begin() {
-        this.facets.clear();
-        this.inside.clear();
-        this.mark.clear();
+        [this.facets, this.inside, this.fill, this.mark].forEach(object => object.clear());
     }
 
     addFacet(cell, cut, colour) {
@@ -93,31 +112,55 @@ class SolidView {
     }
 
     addInside(instant) {
-        if (state.clip.on && knowsInside(instant)) {
-            const {normal, distance} = state.clipPlane();
+        if (!state.clip.on) {
+            return;
+        }
+        const {normal, distance} = state.clipPlane();
+        if (knowsInside(instant)) {
             eachInside(instant, (cell, x) => this.cutter.cut(x, normal, distance,
                 (corners, drawn) => this.inside.push(corners, cell, theme.inside, drawn)));
+        } else if (state.shown.every(shown => shown)) { // else the boundary is not closed
+            this.pushPlane(normal, distance);
         }
+    }
+
+    /// The part of the plane in the box.
+    pushPlane(normal, distance) {
+        const axis = state.clip.axis;
+        const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+        const corner = (a, b) => {
+            const x = [0, 0, 0];
+            [x[axis], x[u], x[v]] = [normal.getComponent(axis) * distance, a[u], b[v]];
+            return x;
+        };
+        const {least, most} = bounds;
+        const corners = [corner(least, least), corner(most, least), corner(most, most), corner(least, most)];
+        pushQuad(this.fill, corners, theme.solid);
     }
 
     finish() {
         const {normal, distance} = state.clipPlane();
         const clip = this.facets.mesh.material.uniforms.clip.value;
         state.clip.on ? clip.set(normal.x, normal.y, normal.z, distance) : clip.set(0, 0, 0, 1);
-        for (const facets of [this.facets, this.inside]) {
-            const {edges, edgePaint} = facets.mesh.material.uniforms;
-            edges.value = state.edges ? 0.75 : 0;
-            edgePaint.value.setRGB(...theme.edge);
+        for (const facets of [this.facets, this.inside, this.fill]) {
+            facets.setEdges(state.edges ? 0.7 : 0, theme.edge);
             facets.finish();
         }
-        this.facets.mesh.material.side = state.cull ? THREE.BackSide : THREE.DoubleSide;
+        this.facets.mesh.material.side = this.culls() ? THREE.BackSide : THREE.DoubleSide;
         this.mark.finish();
+        this.parity.geometry = this.facets.mesh.geometry;
+        this.parity.visible = this.fill.count > 0 && this.facets.count > 0;
+    }
+
+    /// What is clipped is solid: nothing of it hides what is to be seen.
+    culls() {
+        return state.cull && !state.clip.on;
     }
 
     pick(x, y) {
         const {normal, distance} = state.clipPlane();
         return hitOfFacets(this.facets, rayAt(this.pane.camera, x, y),
-            {cull: state.cull, seen: place => !state.clip.on || normal.dot(place) <= distance});
+            {cull: this.culls(), seen: place => !state.clip.on || normal.dot(place) <= distance});
     }
 }
 
@@ -128,19 +171,18 @@ class PlaneView {
         this.pane = new Pane(element, camera, new THREE.OrbitControls(camera, element));
         this.lines = new Lines(2.5);
         this.mark = new Lines(6);
-        this.inside = new Facets(facetMaterial({lit: false, side: THREE.DoubleSide}));
+        this.inside = this.pane.addFacets(new Facets(facetMaterial({lit: false, side: THREE.DoubleSide})));
         this.drawn = [true, true, true];
         this.triangle = new Float64Array(9);
-        this.pane.scene.add(this.inside.mesh);
+        this.fans = this.pane.addFacets(new Facets(parityMaterial({value: new THREE.Vector4(0, 0, 0, 1)})));
+        this.fill = this.pane.addFacets(new Facets(insideMaterial()));
         this.pane.addLines(this.mark);
         this.pane.addLines(this.lines);
-        this.lines.mesh.renderOrder = 2;
-        this.mark.mesh.renderOrder = 1;
-        for (const object of [this.inside, this.mark, this.lines]) {
+        [this.fans, this.fill, this.inside, this.mark, this.lines].forEach((object, order) => {
+            object.mesh.renderOrder = order;
             object.mesh.material.depthTest = false;
-        }
+        });
         this.setControls();
-        this.reset();
     }
 
     setControls() {
@@ -156,26 +198,24 @@ class PlaneView {
             [camera.left, camera.right] = [-half * width / height, half * width / height];
             camera.updateProjectionMatrix();
         };
-    }
-
-    reset() {
-        const {camera, controls} = this.pane;
-        camera.position.set(centreOfBounds.x, centreOfBounds.y, 0.5);
-        camera.zoom = 1;
-        controls.target.set(centreOfBounds.x, centreOfBounds.y, 0);
-        controls.update();
-        stage.ask();
+        this.pane.pixelsByLength = height => camera.zoom * height / (camera.top - camera.bottom);
+        this.pane.reset = () => {
+            camera.position.set(centreOfBounds.x, centreOfBounds.y, 0.5);
+            camera.zoom = 1;
+            camera.updateProjectionMatrix();
+            controls.target.set(centreOfBounds.x, centreOfBounds.y, 0);
+            controls.update();
+        };
     }
 
     begin() {
-        this.lines.clear();
-        this.mark.clear();
-        this.inside.clear();
+        [this.fans, this.fill, this.inside, this.mark, this.lines].forEach(object => object.clear());
     }
 
     addFacet(cell, cut, colour) {
         const [from, to] = [[cut.x[0], cut.x[1], 0], [cut.x[3], cut.x[4], 0]];
         this.lines.push(from, to, cell, colour);
+        this.fans.push([...from, ...to, 0, 0, 0], cell, colour, this.drawn);
         if (cell === state.marked) {
             this.mark.push(from, to, cell, theme.mark);
         }
@@ -184,14 +224,16 @@ class PlaneView {
     addInside(instant) {
         if (state.inside && knowsInside(instant)) {
             eachInside(instant, (cell, x) => this.inside.push(x, cell, theme.inside, this.drawn));
+        } else if (state.shown.every(shown => shown)) {
+            const {least, most} = bounds;
+            pushQuad(this.fill, [[least[0], least[1], 0], [most[0], least[1], 0], [most[0], most[1], 0],
+                [least[0], most[1], 0]], theme.domain);
         }
     }
 
     finish() {
-        const {edges, edgePaint} = this.inside.mesh.material.uniforms;
-        edges.value = state.edges ? 0.6 : 0;
-        edgePaint.value.setRGB(...theme.edge);
-        [this.inside, this.mark, this.lines].forEach(object => object.finish());
+        this.inside.setEdges(state.edges ? 0.6 : 0, theme.edge);
+        [this.fans, this.fill, this.inside, this.mark, this.lines].forEach(object => object.finish());
     }
 
     pick(x, y) {
@@ -205,15 +247,16 @@ class SpaceTimeView {
         this.pane = perspectivePane(element);
         this.scale = 0.8 * Math.max(extents.x, extents.y) / (span.last - span.first);
         this.height = this.scale * (span.last - span.first);
-        this.facets = new Facets(facetMaterial({lit: true, side: THREE.BackSide}));
+        this.facets = this.pane.addFacets(new Facets(facetMaterial({lit: true, side: THREE.BackSide})));
         this.lines = new Lines(3);
         this.plane = this.makePlane();
-        this.pane.scene.add(this.facets.mesh, this.plane);
+        this.pane.scene.add(this.plane);
         pushBox(this.pane.addLines(new Lines(1)), [bounds.least[0], bounds.least[1], 0],
             [bounds.most[0], bounds.most[1], this.height]);
         this.pane.addLines(this.lines);
         this.addWords();
-        this.reset();
+        this.pane.reset = () => fitCamera(this.pane, [bounds.least[0], bounds.least[1], 0],
+            [bounds.most[0], bounds.most[1], this.height], new THREE.Vector3(0.55, -0.9, 0.5), 0.22);
     }
 
     makePlane() {
@@ -230,14 +273,10 @@ class SpaceTimeView {
         const word = (text, x, y, z) => this.pane.addWord(text, new THREE.Vector3(x, y, z));
         word("x", bounds.most[0] + away, front, 0);
         word("y", left, bounds.most[1] + away, 0);
-        word(`t = ${shortNumber(span.first)}`, left - away, front - away, 0);
-        word(`t = ${shortNumber(span.last)}`, left - away, front - away, this.height);
-    }
-
-    reset() {
-        const centre = centreOfBounds.clone().setZ(this.height / 2);
-        const radius = Math.hypot(extents.x, extents.y, this.height) / 2;
-        this.pane.fit(centre, radius, new THREE.Vector3(0.55, -0.9, 0.5));
+        const timeWord = (time, z) =>
+            this.pane.addWord(`t = ${shortNumber(time)}`, new THREE.Vector3(left - away / 2, front, z), true);
+        timeWord(span.first, 0);
+        timeWord(span.last, this.height);
     }
 
     heightOf(time) {
@@ -280,9 +319,7 @@ class SpaceTimeView {
     addInside() {}
 
     finish() {
-        const {edges, edgePaint} = this.facets.mesh.material.uniforms;
-        edges.value = state.edges ? 0.5 : 0;
-        edgePaint.value.setRGB(...theme.edge);
+        this.facets.setEdges(state.edges ? 0.5 : 0, theme.edge);
         this.facets.mesh.material.side = state.cull ? THREE.BackSide : THREE.DoubleSide;
         this.lines.finish();
     }
