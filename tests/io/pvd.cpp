@@ -90,3 +90,27 @@ TEST_CASE("What XML cannot hold is refused, and the series before it stays", "[i
     CHECK(data_sets_of(folder / "a.pvd") == std::vector<DataSet>{{0, 0, "a.vtu"}});
     CHECK_THROWS_AS(io::write_pvd(folder / "no/a.pvd", good), OutputError);
 }
+
+TEST_CASE("A series that was written is read again, its files from the series' folder", "[io]") {
+    const scratch::Folder folder;
+    const std::vector<io::SeriesEntry> entries{{0.1, "a & b/<c> \"d\".vtu"}, {1.0 / 3, "/tmp/it's.vtu"}};
+    io::write_pvd(folder / "a.pvd", entries);
+    const std::vector<io::SeriesEntry> read = io::read_pvd(folder / "a.pvd");
+    REQUIRE(read.size() == 2);
+    CHECK(read[0].time == 0.1);
+    CHECK(read[0].file == folder / "a & b/<c> \"d\".vtu");
+    CHECK(read[1].time == 1.0 / 3);
+    CHECK(read[1].file == "/tmp/it's.vtu");
+}
+
+TEST_CASE("What is no series is refused", "[io]") {
+    const scratch::Folder folder;
+    const std::string text =
+        GENERATE(as<std::string>{}, "", "<VTKFile>",
+                 "<VTKFile><Collection><DataSet file=\"a\"/></Collection></VTKFile>",
+                 "<VTKFile><Collection><DataSet timestep=\"nan\" file=\"a\"/></Collection></VTKFile>",
+                 "<VTKFile><Collection><DataSet timestep=\"0\"/></Collection></VTKFile>");
+    io::write_text(folder / "a.pvd", text);
+    CHECK_THROWS_AS(io::read_pvd(folder / "a.pvd"), InputError);
+    CHECK_THROWS_AS(io::read_pvd(folder / "none.pvd"), InputError);
+}

@@ -53,7 +53,7 @@ class Browser:
         elif method == "Log.entryAdded" and params["entry"]["level"] == "error":
             self.messages.append(params["entry"]["text"])
         elif method == "Runtime.consoleAPICalled" and params["type"] in ("error", "assert"):
-            self.messages.append(json.dumps(params["args"])[:2000])
+            self.messages.append(json.dumps(params["args"]))
         elif method == "Network.requestWillBeSent":
             self.requests.append(params["request"]["url"])
         elif method == "Page.loadEventFired":
