@@ -82,20 +82,20 @@ function unpackCells(name, count) {
     const codes = takeBytes(name + "_codes");
     const far = new Numbers(takeBytes(name + "_far"));
     const vertices = new Uint32Array(count);
-    const recent = new Uint32Array(15);
+    const recent = new Uint32Array(16); // a ring
     let next = 0; // place in `recent`
     let end = 0;  // of the vertices so far
     for (let k = 0; k < count; ++k) {
         const code = k % 2 ? codes[k >> 1] >> 4 : codes[k >> 1] & 15;
         if (code < 15) {
-            vertices[k] = recent[(next + 14 - code) % 15];
+            vertices[k] = recent[next - 1 - code & 15];
             continue;
         }
         const vertex = end - far.nextDifference();
         end = vertex < end ? end : vertex + 1;
         vertices[k] = vertex;
         recent[next] = vertices[k];
-        next = (next + 1) % 15;
+        next = next + 1 & 15;
     }
     return vertices;
 }

@@ -2,9 +2,9 @@
 
 const themes = {
     light: {stage: 0xf4f6f8, outer: [178, 187, 196], inside: [236, 224, 194], solid: [216, 224, 232], domain: [222, 232, 241],
-        edge: [0.1, 0.13, 0.16], mark: [20, 20, 20], instant: [20, 24, 30]},
+        edge: [0.1, 0.13, 0.16], insideEdge: [0.1, 0.13, 0.16], mark: [20, 20, 20], instant: [20, 24, 30]},
     dark: {stage: 0x1b2027, outer: [98, 108, 119], inside: [66, 76, 88], solid: [72, 82, 94], domain: [40, 51, 62],
-        edge: [0.03, 0.04, 0.05], mark: [255, 255, 255], instant: [245, 247, 250]},
+        edge: [0.03, 0.04, 0.05], insideEdge: [0.62, 0.7, 0.78], mark: [255, 255, 255], instant: [245, 247, 250]},
 };
 let theme = themes.light;
 

@@ -7,20 +7,20 @@ function rayAt(camera, x, y) {
     return caster.ray;
 }
 
-/// The cell of the first facet that a ray meets, and where; null for none.
-/// cull: facets that face the viewer are not drawn. seen(place): whether it is not clipped away.
-function hitOfFacets(facets, ray, {cull, seen}) {
+/// The first facet that a ray meets, and where; null for none. cornersOf(facet, corners) fills in three places.
+/// cull: facets that face the viewer are not drawn. seen(place, facet): whether it is not hidden or clipped away.
+function hitOf(count, cornersOf, ray, {cull, seen}) {
     const corners = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
+    const [a, b, c] = corners;
     const place = new THREE.Vector3();
     let nearest = null;
-    for (let facet = 0; facet < facets.count; ++facet) {
-        corners.forEach((corner, k) => corner.fromArray(facets.position, 9 * facet + 3 * k));
-        const [a, b, c] = corners;
+    for (let facet = 0; facet < count; ++facet) {
+        cornersOf(facet, corners);
         const hit = cull ? ray.intersectTriangle(c, b, a, true, place) : ray.intersectTriangle(a, b, c, false, place);
-        if (hit && seen(place)) {
+        if (hit && seen(place, facet)) {
             const distance = place.distanceTo(ray.origin);
             if (!nearest || distance < nearest.distance) {
-                nearest = {cell: facets.cells[facet], place: place.clone(), distance};
+                nearest = {facet, place: place.clone(), distance};
             }
         }
     }

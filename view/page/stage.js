@@ -361,7 +361,7 @@ const stage = {
         this.asked = false;
         this.drawAt(window.devicePixelRatio);
         clearTimeout(this.timer);
-        if (this.software) {
+        if (this.software && this.renderer.info.render.triangles < 200000) {
             this.timer = setTimeout(() => this.drawAt(2 * window.devicePixelRatio), 400); // smooth when all is at rest
         }
     },

@@ -142,10 +142,10 @@ class SolidView {
         const {normal, distance} = state.clipPlane();
         const clip = this.facets.mesh.material.uniforms.clip.value;
         state.clip.on ? clip.set(normal.x, normal.y, normal.z, distance) : clip.set(0, 0, 0, 1);
-        for (const facets of [this.facets, this.inside, this.fill]) {
-            facets.setEdges(state.edges ? 0.7 : 0, theme.edge);
-            facets.finish();
-        }
+        const darkness = state.edges ? 0.7 : 0;
+        this.facets.setEdges(darkness, theme.edge);
+        this.inside.setEdges(darkness, theme.insideEdge);
+        [this.facets, this.inside, this.fill].forEach(facets => facets.finish());
         this.facets.mesh.material.side = this.culls() ? THREE.BackSide : THREE.DoubleSide;
         this.mark.finish();
         this.parity.geometry = this.facets.mesh.geometry;
@@ -159,8 +159,11 @@ class SolidView {
 
     pick(x, y) {
         const {normal, distance} = state.clipPlane();
-        return hitOfFacets(this.facets, rayAt(this.pane.camera, x, y),
-            {cull: this.culls(), seen: place => !state.clip.on || normal.dot(place) <= distance});
+        const cornersOf = (facet, corners) => corners.forEach((corner, k) =>
+            corner.fromArray(this.facets.position, 9 * facet + 3 * k));
+        const hit = hitOf(this.facets.count, cornersOf, rayAt(this.pane.camera, x, y), {cull: this.culls(),
+            seen: place => !state.clip.on || normal.dot(place) <= distance});
+        return hit && {cell: this.facets.cells[hit.facet], place: hit.place};
     }
 }
 
@@ -232,7 +235,7 @@ class PlaneView {
     }
 
     finish() {
-        this.inside.setEdges(state.edges ? 0.6 : 0, theme.edge);
+        this.inside.setEdges(state.edges ? 0.6 : 0, theme.insideEdge);
         [this.fans, this.fill, this.inside, this.mark, this.lines].forEach(object => object.finish());
     }
 
@@ -247,7 +250,10 @@ class SpaceTimeView {
         this.pane = perspectivePane(element);
         this.scale = 0.8 * Math.max(extents.x, extents.y) / (span.last - span.first);
         this.height = this.scale * (span.last - span.first);
-        this.facets = this.pane.addFacets(new Facets(facetMaterial({lit: true, side: THREE.BackSide})));
+        this.places = this.placesInSpaceTime();
+        this.surface = side.count > SpaceTimeView.mostWithEdges ? new SharedSurface(this.places)
+            : new FacetSurface(this.places);
+        this.pane.addFacets(this.surface);
         this.lines = new Lines(3);
         this.plane = this.makePlane();
         this.pane.scene.add(this.plane);
@@ -283,27 +289,20 @@ class SpaceTimeView {
         return this.scale * (time - span.first);
     }
 
-    /// All side cells of patches that are to be seen, in their colours: when these change, not with time.
-    paint() {
-        this.facets.clear();
-        const x = new Float64Array(9);
-        const drawn = [true, true, true];
-        for (let cell = 0; cell < side.count; ++cell) {
-            if (state.shown[sidePatch[cell]]) {
-                this.copyCell(cell, x);
-                this.facets.push(x, cell, state.colourOf(cell), drawn);
-            }
+    /// Of all vertices, three coordinates each.
+    placesInSpaceTime() {
+        const places = new Float32Array(3 * head.vertices);
+        for (let v = 0; v < head.vertices; ++v) {
+            places[3 * v] = points[2 * v];
+            places[3 * v + 1] = points[2 * v + 1];
+            places[3 * v + 2] = this.heightOf(times[timeOfVertex[v]]);
         }
-        this.facets.finish();
+        return places;
     }
 
-    copyCell(cell, x) {
-        for (let i = 0; i < 3; ++i) {
-            const vertex = side.vertices[3 * cell + i];
-            x[3 * i] = points[2 * vertex];
-            x[3 * i + 1] = points[2 * vertex + 1];
-            x[3 * i + 2] = this.heightOf(times[timeOfVertex[vertex]]);
-        }
+    /// When colours or what is seen change, not with time.
+    paint() {
+        this.surface.paint();
     }
 
     begin(instant) {
@@ -319,12 +318,17 @@ class SpaceTimeView {
     addInside() {}
 
     finish() {
-        this.facets.setEdges(state.edges ? 0.5 : 0, theme.edge);
-        this.facets.mesh.material.side = state.cull ? THREE.BackSide : THREE.DoubleSide;
+        this.surface.setEdges(state.edges ? 0.5 : 0, theme.edge);
+        this.surface.mesh.material.side = state.cull ? THREE.BackSide : THREE.DoubleSide;
         this.lines.finish();
     }
 
     pick(x, y) {
-        return hitOfFacets(this.facets, rayAt(this.pane.camera, x, y), {cull: state.cull, seen: () => true});
+        const cornersOf = (cell, corners) => corners.forEach((corner, k) =>
+            corner.fromArray(this.places, 3 * side.vertices[3 * cell + k]));
+        const hit = hitOf(side.count, cornersOf, rayAt(this.pane.camera, x, y), {cull: state.cull,
+            seen: (_, cell) => state.shown[sidePatch[cell]]});
+        return hit && {cell: hit.facet, place: hit.place};
     }
 }
+SpaceTimeView.mostWithEdges = 40000;
