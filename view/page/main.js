@@ -124,7 +124,7 @@ function setSwitch(id, on) {
     } else {
         state[id] = on;
     }
-    show(state.time);
+    repaint();
 }
 
 function setClipAxis(axis) {

@@ -43,6 +43,42 @@ const facetShader = {
         }`,
 };
 
+const parityShader = {
+    vertex: `
+        varying vec3 vPlace;
+        void main() {
+            vPlace = position;
+            gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+        }`,
+    fragment: `
+        uniform vec4 clip;
+        varying vec3 vPlace;
+        void main() {
+            if (dot(clip.xyz, vPlace) > clip.w) {
+                discard;
+            }
+            gl_FragColor = vec4(0.0);
+        }`,
+};
+
+/// A picture with its depths.
+const stillShader = {
+    vertex: `
+        varying vec2 vPlace;
+        void main() {
+            vPlace = position.xy / 2.0 + 0.5;
+            gl_Position = vec4(position.xy, 0.0, 1.0);
+        }`,
+    fragment: `
+        uniform sampler2D picture;
+        uniform sampler2D depths;
+        varying vec2 vPlace;
+        void main() {
+            gl_FragColor = texture2D(picture, vPlace);
+            gl_FragDepthEXT = texture2D(depths, vPlace).r;
+        }`,
+};
+
 const lineShader = {
     vertex: `
         attribute vec3 other;
@@ -88,8 +124,8 @@ function facetMaterial({lit, side}) {
 /// Turns a bit of each pixel over for each facet there, seen or not: it ends as 1 where their number is odd, which is
 /// inside a closed boundary. Draws nothing.
 function parityMaterial(clip) {
-    const material = facetMaterial({lit: false, side: THREE.DoubleSide});
-    material.uniforms.clip = clip;
+    const material = new THREE.ShaderMaterial({vertexShader: parityShader.vertex, fragmentShader: parityShader.fragment,
+        side: THREE.DoubleSide, uniforms: {clip}});
     material.colorWrite = material.depthWrite = material.depthTest = false;
     material.stencilWrite = true;
     material.stencilFunc = THREE.AlwaysStencilFunc;
@@ -255,6 +291,43 @@ class Lines extends GrowingGeometry {
     }
 }
 
+/// What does not change with time, drawn once for each camera and kept as a picture with depths.
+class Still {
+    constructor() {
+        this.scene = new THREE.Scene();
+        this.target = new THREE.WebGLRenderTarget(1, 1, {minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter});
+        this.target.depthTexture = new THREE.DepthTexture(1, 1, THREE.UnsignedIntType);
+        this.outdated = true;
+        this.seenFrom = new THREE.Matrix4();
+        this.screen = new THREE.Mesh(new THREE.PlaneBufferGeometry(2, 2), new THREE.ShaderMaterial({
+            vertexShader: stillShader.vertex,
+            fragmentShader: stillShader.fragment,
+            extensions: {fragDepth: true},
+            depthFunc: THREE.AlwaysDepth,
+            uniforms: {picture: {value: this.target.texture}, depths: {value: this.target.depthTexture}},
+        }));
+        this.screen.frustumCulled = false;
+        this.screen.renderOrder = -1;
+    }
+
+    /// Draws the picture anew if it is of another camera, size or paint.
+    refresh(renderer, camera, width, height) {
+        const [columns, rows] = [width, height].map(size => Math.max(1, Math.round(size * stage.ratio)));
+        camera.updateMatrixWorld();
+        const seenFrom = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+        if (!this.outdated && this.target.width === columns && this.target.height === rows &&
+            seenFrom.equals(this.seenFrom)) {
+            return;
+        }
+        this.outdated = false;
+        this.seenFrom = seenFrom;
+        this.target.setSize(columns, rows);
+        renderer.setRenderTarget(this.target);
+        renderer.render(this.scene, camera);
+        renderer.setRenderTarget(null);
+    }
+}
+
 /// A part of the window with a scene, a camera that the user moves, and words at places of the scene.
 class Pane {
     constructor(element, camera, controls) {
@@ -324,6 +397,9 @@ class Pane {
             lines.mesh.material.uniforms.size.value.set(width, height);
         }
         this.placeWords(width, height);
+        if (this.still) {
+            this.still.refresh(renderer, this.camera, width, height);
+        }
         renderer.setViewport(left - canvas.left, below, width, height);
         renderer.setScissor(left - canvas.left, below, width, height);
         renderer.render(this.scene, this.camera);

@@ -7,7 +7,7 @@ class FacetSurface extends Facets {
         this.places = places;
     }
 
-    paint() {
+    paintAll() {
         const x = new Float32Array(9);
         const drawn = [true, true, true];
         this.clear();
@@ -35,7 +35,7 @@ class SharedSurface {
         this.mesh.frustumCulled = false;
     }
 
-    paint() {
+    paintAll() {
         const seen = state.shown.every(shown => shown) ? side.vertices : this.seenVertices();
         for (let cell = 0; cell < side.count; ++cell) {
             const colour = state.colourOf(cell);

@@ -177,7 +177,8 @@ class PlaneView {
         this.inside = this.pane.addFacets(new Facets(facetMaterial({lit: false, side: THREE.DoubleSide})));
         this.drawn = [true, true, true];
         this.triangle = new Float64Array(9);
-        this.fans = this.pane.addFacets(new Facets(parityMaterial({value: new THREE.Vector4(0, 0, 0, 1)})));
+        this.fans = new Facets(parityMaterial({value: new THREE.Vector4(0, 0, 0, 1)}));
+        this.pane.scene.add(this.fans.mesh);
         this.fill = this.pane.addFacets(new Facets(insideMaterial()));
         this.pane.addLines(this.mark);
         this.pane.addLines(this.lines);
@@ -254,6 +255,9 @@ class SpaceTimeView {
         this.surface = side.count > SpaceTimeView.mostWithEdges ? new SharedSurface(this.places)
             : new FacetSurface(this.places);
         this.pane.addFacets(this.surface);
+        this.pane.still = new Still();
+        this.pane.still.scene.add(this.surface.mesh);
+        this.pane.scene.add(this.pane.still.screen);
         this.lines = new Lines(3);
         this.plane = this.makePlane();
         this.pane.scene.add(this.plane);
@@ -302,7 +306,8 @@ class SpaceTimeView {
 
     /// When colours or what is seen change, not with time.
     paint() {
-        this.surface.paint();
+        this.surface.paintAll();
+        this.pane.still.outdated = true;
     }
 
     begin(instant) {
