@@ -36,8 +36,8 @@ function nearestLine(lines, pane, x, y) {
     const segment = new THREE.Line3();
     let nearest = null;
     for (let k = 0; k < lines.count; ++k) {
-        segment.start.fromArray(lines.position, 18 * k);
-        segment.end.fromArray(lines.other, 18 * k);
+        segment.start.fromArray(lines.position, 12 * k);
+        segment.end.fromArray(lines.other, 12 * k);
         segment.closestPointToPoint(place, true, closest);
         const distance = closest.distanceTo(place) / pixel;
         if (distance < 10 && (!nearest || distance < nearest.distance)) {

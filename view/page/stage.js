@@ -166,7 +166,7 @@ class GrowingGeometry {
         if (vertices <= this.capacity) {
             return;
         }
-        this.capacity = Math.max(vertices, 2 * this.capacity);
+        this.capacity = 4 * Math.ceil(Math.max(vertices, 2 * this.capacity) / 4);
         const old = this.mesh.geometry;
         this.mesh.geometry = new THREE.BufferGeometry();
         for (const [name, components, type, normalised] of this.layout) {
@@ -260,7 +260,7 @@ class Facets extends GrowingGeometry {
     }
 }
 
-/// Segments of a width in pixels, each two triangles.
+/// Segments of a width in pixels, each two triangles with four corners.
 class Lines extends GrowingGeometry {
     constructor(width) {
         super(lineMaterial(width), [["position", 3, Float32Array, false], ["other", 3, Float32Array, false],
@@ -274,20 +274,39 @@ class Lines extends GrowingGeometry {
     }
 
     push(from, to, cell, colour) {
-        this.reserve(this.vertices + 6);
+        this.reserve(this.vertices + 4);
         this.cells.push(cell);
-        for (const [here, there, across] of [[from, to, 1], [from, to, -1], [to, from, 1],
-            [to, from, 1], [to, from, -1], [from, to, 1]]) {
-            this.position.set(here, 3 * this.vertices);
-            this.other.set(there, 3 * this.vertices);
-            this.across[this.vertices] = across;
-            this.paint.set(colour, 4 * this.vertices);
-            this.vertices += 1;
+        this.pushCorner(from, to, 1, colour);
+        this.pushCorner(from, to, -1, colour);
+        this.pushCorner(to, from, 1, colour);
+        this.pushCorner(to, from, -1, colour);
+    }
+
+    pushCorner(here, there, across, colour) {
+        for (let k = 0; k < 3; ++k) {
+            this.position[3 * this.vertices + k] = here[k];
+            this.other[3 * this.vertices + k] = there[k];
+            this.paint[4 * this.vertices + k] = colour[k];
         }
+        this.across[this.vertices] = across;
+        this.vertices += 1;
+    }
+
+    finish() {
+        super.finish();
+        const {geometry} = this.mesh;
+        if (!geometry.index) { // it has grown
+            const index = new Uint32Array(this.capacity / 4 * 6);
+            for (let segment = 0; segment < index.length / 6; ++segment) {
+                index.set([0, 1, 2, 2, 3, 0].map(k => 4 * segment + k), 6 * segment);
+            }
+            geometry.setIndex(new THREE.BufferAttribute(index, 1));
+        }
+        geometry.setDrawRange(0, 6 * this.count);
     }
 
     get count() {
-        return this.vertices / 6;
+        return this.vertices / 4;
     }
 }
 
@@ -450,6 +469,8 @@ const stage = {
             this.renderer.setSize(box.width, box.height);
         }
         this.renderer.setClearColor(theme.stage);
+        this.renderer.setScissor(0, 0, box.width, box.height);
+        this.renderer.clear(); // what is between the panes, too
         this.panes.forEach(pane => pane.draw(this.renderer, box));
     },
 };
