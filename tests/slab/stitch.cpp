@@ -2,6 +2,7 @@
 #include "slabhull/slab/stitch.h"
 #include "slabhull/cases/settings.h"
 
+#include "slab/stitch/layered_side.h"
 #include "slab/swept_grid.h"
 #include "slabhull/cases/case.h"
 #include "slabhull/cases/initial.h"
@@ -326,4 +327,57 @@ TEST_CASE("a case file names the split and its diagonals", "[stitch]") {
                       Catch::Contains("\"shape\"") && Catch::Contains("\"smallest-id\""));
     CHECK_THROWS_AS(read("[side]\nsplit = \"F\"\n"), UsageError);
     std::filesystem::remove(path);
+}
+
+namespace {
+
+/// The sweep as one whose boundary might change. Columns are numbers of boundary vertices by ascending track.
+template<int D>
+LayeredSweep<D> in_layers(const SlabParts<D>& parts, std::vector<TrackId>& tracks) {
+    const Sweep<D>& sweep = parts.sweep;
+    tracks.assign(sweep.boundary.tracks().begin(), sweep.boundary.tracks().end());
+    std::sort(tracks.begin(), tracks.end());
+    Array<TrackId> columns;
+    for (const TrackId track : sweep.boundary.tracks()) {
+        columns.push_back(std::lower_bound(tracks.begin(), tracks.end(), track) - tracks.begin());
+    }
+    LayeredSweep<D> layered;
+    layered.times = sweep.times;
+    const Boundary<D> renamed = Boundary<D>{sweep.boundary.start_surface(), columns}.bounding(
+        {}, Array<Index>(sweep.boundary.mesh_vertices().begin(), sweep.boundary.mesh_vertices().end()));
+    for (std::size_t layer = 0; layer < sweep.layers(); ++layer) {
+        layered.layers.push_back({renamed, sweep.positions[layer + 1], {}});
+    }
+    layered.places = sweep.positions;
+    layered.last = renamed;
+    return layered;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE_SIG("a side made layer by layer is that of a boundary that stays", "[stitch]",
+                       ((int D), D), 2, 3) {
+    for (const auto& grid : family<D>()) {
+        const SlabParts<D> parts = slab_over<D>(grid, {0, 0.25, 0.5, 1}, specimens::bending_flow<D>());
+        std::vector<TrackId> tracks;
+        const LayeredSweep<D> layered = in_layers(parts, tracks);
+        for (const SideOptions& side : all_sides<D>()) {
+            INFO(split_name(side.split));
+            const Hull<D> expected = stitched(parts, side);
+            IdCounter ids{1'000'000};
+            const Hull<D> hull = LayeredSide<D>{parts.initial.points.size(), layered, side}.stitch(
+                parts.initial, parts.terminating, tracks, ids);
+            REQUIRE(hull.points == expected.points);
+            REQUIRE(hull.cells == expected.cells);
+            REQUIRE(hull.neighbors == expected.neighbors);
+            REQUIRE(hull.vertex_ids == expected.vertex_ids);
+            REQUIRE(hull.track_ids == expected.track_ids);
+            for (std::size_t c = 0; c < hull.cells.size(); ++c) {
+                REQUIRE(hull.region(c) == expected.region(c));
+                REQUIRE(hull.layer(c) == expected.layer(c));
+                REQUIRE(hull.patch(c) == expected.patch(c));
+                REQUIRE(hull.prism_end(c) == expected.prism_end(c));
+            }
+        }
+    }
 }

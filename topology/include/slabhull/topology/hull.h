@@ -15,6 +15,13 @@ namespace slabhull {
 /// Part of the boundary of a slab; the values are those in files.
 enum class Region : int { initial = 0, intermediate = 1, terminating = 2 };
 
+/// Cells of a hull's side over one facet of the boundary, or one change of it, in one layer.
+struct SidePart {
+    Index first; ///< the part's first cell
+    PatchNumber patch;
+    std::int32_t layer;
+};
+
 /// The boundary of one space-time slab: a closed D-manifold of D-simplices in R^(D+1), time last.
 ///
 /// Cells are stored in the order initial cap, side, terminating cap; the side by layer, then by boundary
@@ -35,7 +42,9 @@ struct Hull {
     std::size_t side_cells = 0;
     std::size_t layers = 0;
     std::size_t cells_per_prism = 1;
-    std::vector<PatchNumber> facet_patch; ///< of each boundary facet that is swept
+    std::vector<PatchNumber> facet_patch; ///< of each boundary facet that is swept (of the last level's)
+    /// Of a side over a boundary that changes from layer to layer, instead of equal prisms; else empty.
+    std::vector<SidePart> side_parts;
     PatchList patches;
 
     int slab = 0;
@@ -56,11 +65,17 @@ struct Hull {
     }
     /// Time layer of a side cell from 0, -1 for cap cells.
     int layer(std::size_t cell) const {
-        return region(cell) == Region::intermediate ? static_cast<int>(prism(cell) / facet_patch.size()) : -1;
+        if (region(cell) != Region::intermediate) {
+            return -1;
+        }
+        return side_parts.empty() ? static_cast<int>(prism(cell) / facet_patch.size()) : part(cell)->layer;
     }
     /// Patch of a side cell, 0 for cap cells.
     PatchNumber patch(std::size_t cell) const {
-        return region(cell) == Region::intermediate ? facet_patch[prism(cell) % facet_patch.size()] : 0;
+        if (region(cell) != Region::intermediate) {
+            return 0;
+        }
+        return side_parts.empty() ? facet_patch[prism(cell) % facet_patch.size()] : part(cell)->patch;
     }
 
     /// The cell after the last one of a cell's region.
@@ -71,12 +86,23 @@ struct Hull {
         return cell < terminating_begin() ? terminating_begin() : cells.size();
     }
     /// The same for a side cell's prism and its layer; for a cap's, its region.
-    std::size_t prism_end(std::size_t cell) const { return end_by(cells_per_prism, cell); }
+    std::size_t prism_end(std::size_t cell) const {
+        if (side_parts.empty() || region(cell) != Region::intermediate) {
+            return end_by(cells_per_prism, cell);
+        }
+        const auto next = part(cell) + 1;
+        return next == side_parts.end() ? terminating_begin() : next->first;
+    }
     std::size_t layer_end(std::size_t cell) const {
-        return end_by(facet_patch.size() * cells_per_prism, cell);
+        return side_parts.empty() ? end_by(facet_patch.size() * cells_per_prism, cell) : prism_end(cell);
     }
 
 private:
+    std::vector<SidePart>::const_iterator part(std::size_t cell) const {
+        return std::upper_bound(side_parts.begin(), side_parts.end(), cell,
+                                [](std::size_t c, const SidePart& each) { return c < each.first; }) -
+               1;
+    }
     std::size_t end_by(std::size_t length, std::size_t cell) const {
         return region(cell) == Region::intermediate
                    ? initial_cells + ((cell - initial_cells) / length + 1) * length

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/stitch/layered_side.h"
+
+#include "slab/stitch/prism_choice.h"
+#include "slab/stitch/prism_graph.h"
+#include "slab/stitch/side_vertices.h"
+#include "slabhull/core/error.h"
+#include "slabhull/topology/adjacency.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace slabhull {
+
+namespace {
+
+template<int D>
+Point<D + 1> in_space_time(const Point<D>& place, double time) {
+    Point<D + 1> point;
+    std::copy(place.begin(), place.end(), point.begin());
+    point[D] = time;
+    return point;
+}
+
+/// Sign with which a simplex traverses its facet opposite to vertex i, for ascending vertices of that facet.
+template<std::size_t N>
+bool traverses_oddly(const std::array<Index, N>& simplex, std::size_t i) {
+    bool odd = i % 2 == 1;
+    for (std::size_t a = 0; a < N; ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+            odd = odd != (a != i && b != i && simplex[b] > simplex[a]);
+        }
+    }
+    return odd;
+}
+
+/// Turns the simplices of a closed manifold to agree with the first. False when they do not close.
+template<std::size_t N>
+bool orient_alike(std::vector<std::array<Index, N>>& pieces) {
+    std::map<std::vector<Index>, std::vector<std::pair<std::size_t, std::size_t>>> at_ridge;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        for (std::size_t i = 0; i < N; ++i) {
+            std::vector<Index> ridge;
+            for (std::size_t k = 0; k < N; ++k) {
+                if (k != i) {
+                    ridge.push_back(pieces[p][k]);
+                }
+            }
+            std::sort(ridge.begin(), ridge.end());
+            at_ridge[ridge].emplace_back(p, i);
+        }
+    }
+    std::vector<std::vector<std::array<std::size_t, 3>>> across(pieces.size()); // own ridge, other, its ridge
+    for (const auto& [ridge, sides] : at_ridge) {
+        if (sides.size() != 2) {
+            return false;
+        }
+        across[sides[0].first].push_back({sides[0].second, sides[1].first, sides[1].second});
+        across[sides[1].first].push_back({sides[1].second, sides[0].first, sides[0].second});
+    }
+    std::vector<std::uint8_t> met(pieces.size(), 0);
+    std::vector<std::size_t> queue{0};
+    met[0] = 1;
+    for (std::size_t next = 0; next < queue.size(); ++next) {
+        const std::size_t p = queue[next];
+        for (const auto& step : across[p]) {
+            const std::size_t other = step[1];
+            if (met[other] != 0) {
+                continue;
+            }
+            // a swap keeps the ridges, but not their places: find the ridge's place again
+            const auto place_of = [&](std::size_t piece, std::size_t neighbor) {
+                std::size_t i = 0;
+                while (std::find(pieces[neighbor].begin(), pieces[neighbor].end(), pieces[piece][i]) !=
+                       pieces[neighbor].end()) {
+                    ++i;
+                }
+                return i;
+            };
+            if (traverses_oddly(pieces[p], place_of(p, other)) ==
+                traverses_oddly(pieces[other], place_of(other, p))) {
+                std::swap(pieces[other][0], pieces[other][1]);
+            }
+            met[other] = 1;
+            queue.push_back(other);
+        }
+    }
+    return queue.size() == pieces.size();
+}
+
+} // namespace
+
+template<int D>
+LayeredSide<D>::LayeredSide(std::size_t initial_points, const LayeredSweep<D>& sweep,
+                            const SideOptions& options)
+    : initial_points_{initial_points}, sweep_{sweep} {
+    enter_level(0);
+    for (std::size_t layer = 0; layer < sweep.layers.size(); ++layer) {
+        add_layer(layer, options);
+    }
+    for (Simplex<D>& cell : cells_) {
+        for (Index& v : cell) {
+            v = v > no_index / 2 ? static_cast<Index>(initial_points_ + points_.size() + (on_terminating - v))
+                                 : v;
+        }
+    }
+}
+
+/// Numbers the vertices of a level's boundary by column.
+template<int D>
+void LayeredSide<D>::enter_level(std::size_t level) {
+    const bool last = level == sweep_.layers.size();
+    const Boundary<D>& boundary = last ? sweep_.last : sweep_.layers[level].boundary;
+    std::vector<Index>& vertex = vertex_of_column_.emplace_back();
+    for (Index v = 0; v < boundary.vertex_count(); ++v) {
+        const auto column = static_cast<std::size_t>(boundary.tracks()[v]);
+        vertex.resize(std::max(vertex.size(), column + 1), no_index);
+        if (level == 0) {
+            vertex[column] = boundary.mesh_vertices()[v];
+        } else if (last) {
+            vertex[column] = on_terminating - v;
+        } else {
+            vertex[column] = checked_index(initial_points_ + points_.size(), "hull vertices");
+            points_.push_back(in_space_time<D>(sweep_.places[level][v], sweep_.times[level]));
+            column_.push_back(static_cast<std::int64_t>(column));
+        }
+    }
+}
+
+template<int D>
+Index LayeredSide<D>::level_vertex(std::size_t level, Index column) const {
+    return vertex_of_column_[level][column];
+}
+
+/// One layer with the local numbers of SideVertices: the boundary below, centres, the boundary above.
+template<int D>
+struct LayeredSide<D>::LayerBuilder {
+    const SideLayer<D>& layer;
+    const SplitRecipe& recipe;
+    Sweep<D> sweep;
+    PrismGraph<D> graph;
+    SideVertices<D> vertices;
+    std::vector<Point<D + 1>> points;
+    PrismChoice choice;
+
+    LayerBuilder(const SideLayer<D>& of, const Array<Point<D>>& start, double begin, double end,
+                 const SideOptions& options)
+        : layer{of}, recipe{recipe_of(options.split)}, sweep{of.boundary.bounding({}),
+                                                             {begin, end},
+                                                             {start, of.end},
+                                                             {}},
+          graph{connect_prisms<D>(sweep.boundary, recipe)}, vertices{start.size(), sweep, graph, recipe},
+          points(vertices.end() + start.size()) {
+        for (Index v = 0; v < start.size(); ++v) {
+            points[v] = in_space_time<D>(start[v], begin);
+            points[vertices.end() + v] = in_space_time<D>(of.end[v], end);
+        }
+        for (std::size_t f = 0; f < graph.facets(); ++f) {
+            place_centres(f);
+        }
+        choice = choose_templates<D>(options, graph, {sweep, vertices, points});
+    }
+
+    template<std::size_t N>
+    Point<D + 1> mean(const std::array<Index, N>& corners) const {
+        Point<D> sum{};
+        for (const std::size_t level : {0u, 1u}) {
+            for (const Index v : corners) {
+                for (std::size_t k = 0; k < D; ++k) {
+                    sum[k] += sweep.positions[level][v][k];
+                }
+            }
+        }
+        for (double& coordinate : sum) {
+            coordinate /= 2.0 * static_cast<double>(N);
+        }
+        return in_space_time<D>(sum, 0.5 * (sweep.times[0] + sweep.times[1]));
+    }
+
+    void place_centres(std::size_t f) {
+        const Facet<D>& corners = sweep.boundary.facets()[f];
+        if (vertices.has_prism_centres()) {
+            points[vertices.prism_centre(0, f)] = mean(corners);
+        }
+        for (std::size_t q = 0; q < PrismGraph<D>::quads_of_facet && vertices.has_face_centres(); ++q) {
+            if (graph.owns(f, q) && graph.is_centred(f, q)) {
+                const auto [j, k] = quad_corners<D>(q);
+                points[vertices.face_centre(0, graph.quad[f][q])] = mean(std::array{corners[j], corners[k]});
+            }
+        }
+    }
+
+    /// The pieces of the wall over ridge i of a facet, in local numbers.
+    std::vector<std::array<Index, D>> wall(std::span<const PrismTemplate<D>> templates, std::size_t f,
+                                           std::size_t i) const {
+        using Template = PrismTemplate<D>;
+        const Template& filling = templates[choice(0, f)];
+        const auto prism = vertices.of_prism(0, f);
+        std::vector<std::array<Index, D>> pieces;
+        for (std::size_t p = 0; p < Template::pieces; ++p) {
+            const std::uint8_t slot = Template::lateral(i, p);
+            const std::uint8_t c = filling.cell_at[slot];
+            if (c == Template::no_cell) {
+                continue;
+            }
+            std::array<Index, D> piece{};
+            std::size_t n = 0;
+            for (std::size_t k = 0; k <= D; ++k) {
+                if (filling.across[c][k] != Template::outside + slot) {
+                    piece[n++] = prism[filling.cells[c][k]];
+                }
+            }
+            pieces.push_back(piece);
+        }
+        return pieces;
+    }
+};
+
+template<int D>
+void LayeredSide<D>::add_layer(std::size_t number, const SideOptions& options) {
+    const SideLayer<D>& layer = sweep_.layers[number];
+    const LayerBuilder builder{layer, sweep_.places[number], sweep_.times[number], sweep_.times[number + 1],
+                               options};
+    const auto templates = templates_of<D>(options.split);
+    const Boundary<D>& boundary = layer.boundary;
+    std::vector<Index> change_of(boundary.facet_count(), no_index);
+    for (std::size_t k = 0; k < layer.changes.size(); ++k) {
+        for (const Index f : layer.changes[k].removed) {
+            change_of[f] = static_cast<Index>(k);
+        }
+    }
+    std::vector<std::vector<std::array<Index, D>>> walls(layer.changes.size());
+    std::vector<std::uint8_t> used(builder.points.size(), 0);
+    for (Index f = 0; f < boundary.facet_count(); ++f) {
+        if (change_of[f] == no_index) {
+            const auto prism = builder.vertices.of_prism(0, f);
+            for (const auto& cell : templates[builder.choice(0, f)].cells) {
+                for (const std::uint8_t v : cell) {
+                    used[prism[v]] = 1;
+                }
+            }
+            continue;
+        }
+        for (std::size_t i = 0; i < D; ++i) {
+            if (change_of[boundary.neighbors()[f][i]] != change_of[f]) {
+                for (const auto& piece : builder.wall(templates, f, i)) {
+                    walls[change_of[f]].push_back(piece);
+                    for (const Index v : piece) {
+                        used[v] = 1;
+                    }
+                }
+            }
+        }
+    }
+    // Centres in use get their numbers now, before the next level's vertices.
+    std::vector<Index> vertex(builder.points.size(), no_index);
+    const std::size_t below = boundary.vertex_count();
+    for (std::size_t v = below; v < builder.vertices.end(); ++v) {
+        if (used[v] != 0) {
+            vertex[v] = checked_index(initial_points_ + points_.size(), "hull vertices");
+            points_.push_back(builder.points[v]);
+            column_.push_back(-1);
+        }
+    }
+    std::vector<Index> apexes;
+    for (const BoundaryChange<D>& change : layer.changes) {
+        apexes.push_back(checked_index(initial_points_ + points_.size(), "hull vertices"));
+        points_.push_back(change.apex);
+        column_.push_back(-1);
+    }
+    enter_level(number + 1);
+    for (Index v = 0; v < below; ++v) {
+        const auto column = static_cast<Index>(boundary.tracks()[v]);
+        const std::vector<Index>& above = vertex_of_column_[number + 1];
+        vertex[v] = level_vertex(number, column);
+        vertex[builder.vertices.end() + v] = column < above.size() ? above[column] : no_index;
+    }
+    const auto part = [&](PatchNumber patch) {
+        parts_.push_back({static_cast<Index>(cells_.size()), patch, static_cast<std::int32_t>(number)});
+    };
+    for (Index f = 0; f < boundary.facet_count(); ++f) {
+        if (change_of[f] != no_index) {
+            continue;
+        }
+        part(boundary.patch()[f]);
+        const auto prism = builder.vertices.of_prism(0, f);
+        for (const auto& local : templates[builder.choice(0, f)].cells) {
+            Simplex<D> cell;
+            for (std::size_t i = 0; i <= D; ++i) {
+                cell[i] = vertex[prism[local[i]]];
+            }
+            cells_.push_back(cell);
+        }
+    }
+    for (std::size_t k = 0; k < layer.changes.size(); ++k) {
+        const BoundaryChange<D>& change = layer.changes[k];
+        part(change.patch);
+        std::vector<std::array<Index, D>> pieces;
+        for (const Index f : change.removed) {
+            std::array<Index, D> piece;
+            for (std::size_t i = 0; i < D; ++i) {
+                piece[i] = vertex[boundary.facets()[f][i]];
+            }
+            pieces.push_back(piece);
+        }
+        for (const Facet<D>& facet : change.added) {
+            std::array<Index, D> piece;
+            for (std::size_t i = 0; i < D; ++i) {
+                piece[i] = level_vertex(number + 1, facet[i]);
+            }
+            pieces.push_back(piece);
+        }
+        for (std::array<Index, D> piece : walls[k]) {
+            for (Index& v : piece) {
+                v = vertex[v];
+            }
+            pieces.push_back(piece);
+        }
+        add_cone(change, std::move(pieces), apexes[k]);
+    }
+}
+
+/// The first piece is a facet below: with the apex, it faces inward.
+template<int D>
+void LayeredSide<D>::add_cone(const BoundaryChange<D>& change, std::vector<std::array<Index, D>> pieces,
+                              Index apex) {
+    std::swap(pieces[0][0], pieces[0][1]);
+    if (!orient_alike(pieces)) {
+        throw GeometryError{
+            fmt::format("a change of {} facets of the boundary does not close", change.removed.size()),
+            {{"facet", change.removed.front(), {}}}};
+    }
+    for (const auto& piece : pieces) {
+        Simplex<D> cell;
+        std::copy(piece.begin(), piece.end(), cell.begin());
+        cell[D] = apex;
+        cells_.push_back(cell);
+    }
+}
+
+template<int D>
+Hull<D> LayeredSide<D>::stitch(CapToStitch<D> initial, CapToStitch<D> terminating,
+                               std::span<const TrackId> tracks, IdCounter& ids) && {
+    Hull<D> hull;
+    const SpatialMesh<D>& first = initial.mesh();
+    const SpatialMesh<D>& last = terminating.mesh();
+    hull.initial_points = first.points.size();
+    hull.side_points = points_.size();
+    hull.initial_cells = first.cells.size();
+    hull.side_cells = cells_.size();
+    hull.layers = sweep_.layers.size();
+    hull.cells_per_prism = 0;
+    hull.facet_patch.assign(sweep_.last.patch().begin(), sweep_.last.patch().end());
+    hull.patches = sweep_.last.patches();
+    hull.time = {sweep_.times.front(), sweep_.times.back()};
+    checked_index(hull.terminating_points_begin() + last.points.size(), "hull vertices");
+    checked_index(hull.terminating_begin() + last.cells.size(), "hull cells");
+    for (const Point<D>& place : first.points) {
+        hull.points.push_back(in_space_time<D>(place, hull.time[0]));
+    }
+    hull.points.insert(hull.points.end(), points_.begin(), points_.end());
+    for (const Point<D>& place : last.points) {
+        hull.points.push_back(in_space_time<D>(place, hull.time[1]));
+    }
+    for (Simplex<D> cell : first.cells) {
+        std::swap(cell[0], cell[1]); // the cap faces back in time
+        hull.cells.push_back(cell);
+    }
+    hull.cells.insert(hull.cells.end(), cells_.begin(), cells_.end());
+    for (Simplex<D> cell : last.cells) {
+        for (Index& v : cell) {
+            v += static_cast<Index>(hull.terminating_points_begin());
+        }
+        hull.cells.push_back(cell);
+    }
+    Adjacency<D> adjacency = build_adjacency<D>(hull.cells, hull.points.size());
+    if (!adjacency.defects.empty()) {
+        throw GeometryError{
+            fmt::format("the caps and the side of the slab from t = {} to {} do not close at {} "
+                        "facets, the first of cell {}",
+                        hull.time[0], hull.time[1], adjacency.defects.size(),
+                        adjacency.defects.front().cells.front()),
+            {{"cell", adjacency.defects.front().cells.front(), {}}}};
+    }
+    hull.neighbors = std::move(adjacency.neighbors);
+    hull.vertex_ids.append(first.vertex_ids);
+    hull.vertex_ids.append_run(ids.take(points_.size()), points_.size(), 1);
+    hull.vertex_ids.append(last.vertex_ids);
+    hull.track_ids.append(initial.tracks());
+    for (const std::int64_t column : column_) {
+        hull.track_ids.push_back(column < 0 ? no_track : tracks[static_cast<std::size_t>(column)]);
+    }
+    hull.track_ids.append(last.track_ids);
+    hull.side_parts = std::move(parts_);
+    for (SidePart& part : hull.side_parts) {
+        part.first += static_cast<Index>(hull.initial_cells);
+    }
+    return hull;
+}
+
+template class LayeredSide<2>;
+template class LayeredSide<3>;
+
+} // namespace slabhull
