@@ -119,8 +119,8 @@ void trajectories(benchmark::State& state, const MotionPointer<3>& motion, bool 
         const double swept = processor_seconds();
         require_embedded_levels<3>(sweep, motions, 0, {});
         const double embedded = processor_seconds();
-        const SpatialMesh<3> terminating =
-            terminating_cap<3>(sweep, {sweep.positions.back(), initial.cells, initial.neighbors}, ids);
+        const SpatialMesh<3> terminating = terminating_cap<3>(
+            sweep.boundary, {sweep.positions.back(), initial.cells, initial.neighbors}, ids);
         const Hull<3> hull = stitch<3>(initial, sweep, terminating, {Split::C}, ids);
         const bool clean = check_hull<3>(hull).clean();
         const double end = processor_seconds();

@@ -98,7 +98,8 @@ struct Parts {
         std::vector<double> times(layers + 1);
         std::iota(times.begin(), times.end(), 0.0);
         sweep = sweep_boundary<3>(boundary_of(initial), initial, {}, 0, times, {});
-        terminating = terminating_cap<3>(sweep, {initial.points, initial.cells, initial.neighbors}, ids);
+        terminating =
+            terminating_cap<3>(sweep.boundary, {initial.points, initial.cells, initial.neighbors}, ids);
     }
     Hull<3> stitched(const SideOptions& side) { return stitch<3>(initial, sweep, terminating, side, ids); }
 

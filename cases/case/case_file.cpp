@@ -336,7 +336,35 @@ private:
         if (!(case_.adapt_angle >= least && case_.adapt_angle <= most)) {
             table.fail("angle", fmt::format("an angle from {} to {} degrees", least, most));
         }
+        read_boundary_adaptation(table);
         table.require_all_known();
+    }
+
+    void read_boundary_adaptation(KeyTable& table) {
+        const std::vector<std::string> patches = table.table_names();
+        case_.adapt_boundary = !patches.empty();
+        if (table.has("boundary")) {
+            case_.adapt_boundary = table.boolean("boundary");
+        }
+        case_.adapt_feature_angle = table.number_or("feature_angle", case_.adapt_feature_angle);
+        if (!(case_.adapt_feature_angle > 0 && case_.adapt_feature_angle <= 90)) {
+            table.fail("feature_angle", "an angle above 0, up to 90 degrees");
+        }
+        case_.adapt_distance = table.number_or("distance", case_.adapt_distance);
+        if (!(case_.adapt_distance >= 0 && case_.adapt_distance <= 1)) {
+            table.fail("distance", "a part of the target length, from 0 to 1");
+        }
+        for (const std::string& name : patches) {
+            KeyTable patch = table.table(name);
+            PatchAdaptation& wanted = case_.adapt_patches[name];
+            if (patch.has("size")) {
+                wanted.size = patch.positive("size");
+            }
+            if (patch.has("fixed")) {
+                wanted.fixed = patch.boolean("fixed");
+            }
+            patch.require_all_known();
+        }
     }
 
     void read_check() {

@@ -82,6 +82,12 @@ std::vector<std::string> KeyTable::keys() const {
     return names;
 }
 
+std::vector<std::string> KeyTable::table_names() const {
+    std::vector<std::string> names = keys();
+    std::erase_if(names, [this](const std::string& key) { return !node_->table->get(key)->is_table(); });
+    return names;
+}
+
 void KeyTable::fail(const std::string& key, const std::string& expected) const {
     const toml::node* at = node_->table->get(key);
     const auto line = at != nullptr ? at->source().begin.line : node_->table->source().begin.line;

@@ -19,6 +19,8 @@ public:
 
     bool has(const std::string& key) const;
     std::vector<std::string> keys() const;
+    /// The keys of tables.
+    std::vector<std::string> table_names() const;
 
     std::string text(const std::string& key);
     std::optional<std::string> optional_text(const std::string& key);

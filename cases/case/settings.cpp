@@ -44,6 +44,12 @@ public:
         settings_.adapt.size = std::min(case_.adapt_size, case_.cap_size);
         settings_.adapt.growth = case_.cap_growth;
         settings_.adapt.angle = case_.adapt_angle;
+        settings_.adapt.boundary = case_.adapt_boundary;
+        settings_.adapt.feature_angle = case_.adapt_feature_angle;
+        settings_.adapt.distance = case_.adapt_distance;
+        for (const auto& [patch, wanted] : case_.adapt_patches) {
+            settings_.adapt.patches[number_of(boundary_.patches(), patch, "adapt")] = wanted;
+        }
         for (const auto& [patch, spec] : case_.motions) {
             const PatchNumber number = number_of(boundary_.patches(), patch, "motion");
             try {

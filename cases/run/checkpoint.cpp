@@ -21,7 +21,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are written as they lie in memory");
 
-constexpr std::string_view magic = "slabhull march 1\n";
+constexpr std::string_view magic = "slabhull march 2\n";
 
 class Packer {
 public:
@@ -139,11 +139,13 @@ PatchList unpack_patches(Unpacker& in) {
 
 /// The boundary that the march's caps have, at its start; their vertices begin with its.
 template<int D>
-std::optional<Boundary<D>> boundary_of_caps(const SpatialMesh<D>& cap, Array<Point<D>> start) {
+std::optional<Boundary<D>> boundary_of_caps(const SpatialMesh<D>& cap, Array<Point<D>> start,
+                                            Array<double> spacing) {
     const auto known = [&](const Facet<D>& facet) {
         return std::all_of(facet.begin(), facet.end(), [&](Index v) { return v < start.size(); });
     };
     if (cap.boundary_patch.size() != cap.boundary_facets.size() || start.size() > cap.points.size() ||
+        (!spacing.empty() && spacing.size() != start.size()) ||
         !std::all_of(cap.boundary_facets.begin(), cap.boundary_facets.end(), known)) {
         return std::nullopt;
     }
@@ -151,7 +153,8 @@ std::optional<Boundary<D>> boundary_of_caps(const SpatialMesh<D>& cap, Array<Poi
                           cap.track_ids.begin() + static_cast<std::ptrdiff_t>(start.size()));
     try {
         return Boundary<D>{{std::move(start), cap.boundary_facets, cap.boundary_patch, cap.patches},
-                           std::move(tracks)}
+                           std::move(tracks),
+                           std::move(spacing)}
             .bounding(cap.vertex_ids);
     } catch (const GeometryError&) {
         return std::nullopt;
@@ -177,6 +180,7 @@ void write_checkpoint(const std::filesystem::path& path, const MarchState<D>& st
     out.list(state.cap.boundary_facets);
     out.list(state.cap.boundary_patch);
     out.list(state.boundary.start());
+    out.list(state.boundary.spacing());
     io::AtomicFile file{path};
     file.write(std::move(out).sealed());
     file.commit();
@@ -206,7 +210,8 @@ Checkpoint<D> read_checkpoint(const std::filesystem::path& path) {
     read.state.cap.patches = unpack_patches(in);
     read.state.cap.boundary_facets = in.list<Array<Facet<D>>>();
     read.state.cap.boundary_patch = in.list<std::vector<PatchNumber>>();
-    auto boundary = boundary_of_caps<D>(read.state.cap, in.list<Array<Point<D>>>());
+    auto start = in.list<Array<Point<D>>>();
+    auto boundary = boundary_of_caps<D>(read.state.cap, std::move(start), in.list<Array<double>>());
     if (!boundary) {
         in.fail("does not fit its cap");
     }

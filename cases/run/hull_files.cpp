@@ -169,19 +169,17 @@ std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
         names.emplace(patch.number, patch_name({patch}, patch.number));
     }
     std::vector<MeshColumns::Group> groups{{0, hull.initial_cells, largest + 1, "initial"}};
-    for (std::size_t layer = 0; layer < hull.layers; ++layer) {
-        for (std::size_t f = 0; f < hull.facet_patch.size(); ++f) {
-            const std::size_t begin =
-                hull.initial_cells + (layer * hull.facet_patch.size() + f) * hull.cells_per_prism;
-            const PatchNumber number = hull.facet_patch[f];
-            if (groups.back().number == number) {
-                groups.back().end = begin + hull.cells_per_prism;
-            } else {
-                const auto name = names.find(number);
-                groups.push_back({begin, begin + hull.cells_per_prism, number,
-                                  name != names.end() ? name->second : patch_name({}, number)});
-            }
+    for (std::size_t begin = hull.initial_cells; begin < hull.terminating_begin();) {
+        const PatchNumber number = hull.patch(begin);
+        const std::size_t end = hull.prism_end(begin);
+        if (groups.back().number == number) {
+            groups.back().end = end;
+        } else {
+            const auto name = names.find(number);
+            groups.push_back(
+                {begin, end, number, name != names.end() ? name->second : patch_name({}, number)});
         }
+        begin = end;
     }
     groups.push_back({hull.terminating_begin(), hull.cells.size(), largest + 2, "terminating"});
     return groups;

@@ -90,14 +90,20 @@ const char* reuse_name(CapReuse reuse) {
 }
 
 Json as_json(const AdaptReport& report) {
-    return {{"splits", report.splits},
-            {"collapses", report.collapses},
-            {"flips", report.flips},
-            {"moved", report.moved},
-            {"refused", report.refused},
-            {"halvings", report.halvings},
-            {"edge_length_ratio", {report.shortest_ratio, report.longest_ratio}},
-            {"smallest_angle", report.smallest_angle}};
+    Json json{{"splits", report.splits},
+              {"collapses", report.collapses},
+              {"flips", report.flips},
+              {"moved", report.moved},
+              {"refused", report.refused},
+              {"halvings", report.halvings},
+              {"edge_length_ratio", {report.shortest_ratio, report.longest_ratio}},
+              {"smallest_angle", report.smallest_angle}};
+    if (report.boundary_ratios) {
+        json["shifts"] = report.shifts;
+        json["on_boundary"] = report.on_boundary;
+        json["boundary_edge_length_ratio"] = *report.boundary_ratios;
+    }
+    return json;
 }
 
 Json settings_as_json(const Case& the_case) {

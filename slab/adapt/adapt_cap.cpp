@@ -33,6 +33,11 @@ public:
         : boundary_{boundary}, options_{options} {
         open(initial, tracks);
         set_targets();
+        if (options.boundary && boundary.motion != nullptr) {
+            adapted_boundary_.emplace(*boundary.motion, boundary.times, boundary.positions, boundary.spacing,
+                                      mesh_);
+            result_.report.boundary_ratios_before = adapted_boundary_->length_ratios();
+        }
     }
 
     AdaptedCap<D> run() {
@@ -111,9 +116,9 @@ private:
         mesh_.before = mesh_.now;
         CapMotionOptions careful;
         careful.tolerance = careful_tolerance;
-        mesh_.now =
-            move_cap<D>(mesh_.before, mesh_.cells, mesh_.boundary, boundary_.positions[layer + 1], careful)
-                .points;
+        const Array<Point<D>>& end =
+            adapted_boundary_ ? adapted_boundary_->move(layer) : boundary_.positions[layer + 1];
+        mesh_.now = move_cap<D>(mesh_.before, mesh_.cells, mesh_.boundary, end, careful).points;
         VertexSmoother<D> smoother{mesh_};
         constexpr double least =
             5; // degrees: cells that are no good for a layer are mended whatever is aimed at
@@ -152,9 +157,17 @@ private:
     }
 
     void change(std::size_t layer) {
-        const std::vector<Cavity<D>> cavities = choose_operations<D>(
-            mesh_, {boundary_.times[layer], boundary_.times[layer + 1]}, options_, result_.report);
+        const std::array<double, 2> times{boundary_.times[layer], boundary_.times[layer + 1]};
+        if (!adapted_boundary_) {
+            const auto cavities = choose_operations<D>(mesh_, nullptr, times, options_, result_.report);
+            mesh_.apply(cavities, result_.columns, result_.log);
+            return;
+        }
+        const BoundaryOperations<D> on_boundary = adapted_boundary_->operations(layer, mesh_, options_);
+        const auto cavities = choose_operations<D>(mesh_, &on_boundary, times, options_, result_.report);
+        adapted_boundary_->change(layer, cavities, mesh_, result_.columns);
         mesh_.apply(cavities, result_.columns, result_.log);
+        mesh_.boundary = adapted_boundary_->vertices_in(mesh_);
     }
 
     /// The mesh with the swept vertices first.
@@ -180,12 +193,19 @@ private:
             }
         }
         cap.neighbors = std::move(mesh_.neighbors);
+        if (adapted_boundary_) {
+            result_.report.boundary_ratios = adapted_boundary_->length_ratios();
+            if (adapted_boundary_->changed()) {
+                result_.side = std::move(*adapted_boundary_).sweep();
+            }
+        }
     }
 
     const CapBoundary<D>& boundary_;
     const AdaptOptions& options_;
     AdaptMesh<D> mesh_;
     AdaptedCap<D> result_;
+    std::optional<AdaptedBoundary<D>> adapted_boundary_;
 };
 
 } // namespace
@@ -216,8 +236,13 @@ AdaptOptions settings_of_numbers(const std::vector<double>& numbers) {
                         "it anew",
                         numbers.size())};
     }
-    const double size = numbers[0] > 0 ? numbers[0] : std::numeric_limits<double>::infinity();
-    return {size, numbers[1], numbers[2], numbers[3], numbers[4]};
+    AdaptOptions options;
+    options.size = numbers[0] > 0 ? numbers[0] : std::numeric_limits<double>::infinity();
+    options.growth = numbers[1];
+    options.angle = numbers[2];
+    options.shortest = numbers[3];
+    options.longest = numbers[4];
+    return options;
 }
 
 template AdaptedCap<2> adapt_cap<2>(const SpatialMesh<2>&, std::span<const TrackId>, const CapBoundary<2>&,

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slab/adapt/adapted_boundary.h"
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/adapt.h"
 #include "slabhull/topology/hull.h"
 #include "slabhull/topology/spatial_mesh.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +22,7 @@ struct AdaptedCap {
     AdaptLog<D> log;           ///< `tracks` are those of the initial cap; later columns have none yet
     Index columns = 0;         ///< how many there are
     AdaptReport report;
+    std::optional<LayeredSweep<D>> side; ///< of a boundary whose connectivity was changed
 };
 
 /// A cap has cells that its motion turns inside out within a layer.
@@ -35,6 +38,7 @@ struct CapBoundary {
     const std::vector<double>& times;              ///< of the levels
     const std::vector<Array<Point<D>>>& positions; ///< by level, then as `vertices`
     std::span<const double> spacing;               ///< target length of edges at each
+    const BoundaryMotion<D>* motion = nullptr;     ///< what moves it if AdaptOptions::boundary is set
 };
 
 /// Moves the initial cap from level to level (move_cap()), improves its vertices' places, and makes a round

@@ -56,7 +56,7 @@ void AdaptMesh<D>::add_vertices(std::span<const Cavity<D>> cavities, Index& next
             before.push_back(cavity.new_place);
             target.push_back(cavity.new_target);
             column.push_back(next_column++);
-            on_boundary.push_back(0);
+            on_boundary.push_back(cavity.on_boundary() ? 1 : 0);
             cell_of_.push_back(no_index);
         }
         for (Simplex<D> cell : cavity.added) {
@@ -73,7 +73,8 @@ void AdaptMesh<D>::note(std::span<const Cavity<D>> cavities, const std::vector<S
     for (const Cavity<D>& cavity : cavities) {
         log.removed.insert(log.removed.end(), cavity.removed.begin(), cavity.removed.end());
         added_end += cavity.added.size();
-        log.operations.push_back({cavity.kind, log.removed.size(), added_end, cavity.apex});
+        log.operations.push_back(
+            {cavity.kind, log.removed.size(), added_end, cavity.apex, cavity.on_boundary()});
     }
     for (Simplex<D> cell : added) {
         for (Index& v : cell) {
@@ -218,6 +219,7 @@ void AdaptMesh<D>::drop_vertices(std::span<const Cavity<D>> cavities) {
             v = number[v];
         }
     }
+    std::erase_if(boundary, [&](Index v) { return number[v] == no_index; });
     for (Index& v : boundary) {
         v = number[v];
     }

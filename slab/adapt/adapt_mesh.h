@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slab/adapt/side_layer.h"
 #include "slabhull/core/array.h"
 #include "slabhull/core/point.h"
 #include "slabhull/core/vector.h"
 #include "slabhull/slab/adapt.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,11 +26,17 @@ struct Cavity {
     Point<D> new_place{};          ///< of the new vertex
     double new_target = 0;         ///< the target length at it
     bool has_new_vertex = false;
-    Index ended = no_index; ///< the vertex that ends
-    Point<D> kernel{};      ///< a place at half time from which a cavity at rest sees all of its boundary
+    std::array<Index, 2> edge{}; ///< that is divided or collapsed; of a shift, its vertex
+    Index ended = no_index;      ///< the vertex that ends
+    Point<D> kernel{}; ///< a place at half time from which a cavity at rest sees all of its boundary
     Point<D + 1> apex{};
-    double quality_before = 0; ///< the smallest of the cells removed ...
-    double quality = 0;        ///< ... and of those added
+    /// What happens to the boundary, with vertices of the mesh; removes nothing inside.
+    BoundaryChange<D> side;
+    std::vector<Facet<D>> side_removed; ///< the facets that `side` removes, outward
+    double quality_before = 0;          ///< the smallest of the cells removed ...
+    double quality = 0;                 ///< ... and of those added
+
+    bool on_boundary() const { return !side.removed.empty(); }
 };
 
 /// A mesh between two levels: the connectivity at the layer's start, places at its start and end. Vertices

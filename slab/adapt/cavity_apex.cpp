@@ -29,11 +29,17 @@ public:
         for (const Index cell : cavity.removed) {
             for (std::size_t i = 0; i <= D; ++i) {
                 const Index across = mesh.neighbors[cell][i];
-                if (across == no_index ||
-                    std::find(cavity.removed.begin(), cavity.removed.end(), across) == cavity.removed.end()) {
-                    add_wall(outward_facet<D>(mesh.cells[cell], static_cast<int>(i)));
+                if (std::find(cavity.removed.begin(), cavity.removed.end(), across) != cavity.removed.end()) {
+                    continue;
+                }
+                if (const Facet<D> facet = outward_facet<D>(mesh.cells[cell], static_cast<int>(i));
+                    across != no_index || !on_side(facet)) {
+                    add_wall(facet);
                 }
             }
+        }
+        if (cavity.on_boundary()) {
+            add_side();
         }
     }
 
@@ -81,6 +87,82 @@ private:
         }
     }
 
+    /// Whether the operation removes a facet of the boundary.
+    bool on_side(const Facet<D>& facet) const {
+        return std::any_of(cavity_.side_removed.begin(), cavity_.side_removed.end(), [&](const Facet<D>& f) {
+            return std::is_permutation(f.begin(), f.end(), facet.begin());
+        });
+    }
+
+    /// The cone of the hull's side. The chain (F', s) - (F, s) - (P, s) is outward, with F below, F' above
+    /// and the prisms P over the ridges around them.
+    void add_side() {
+        Point<D + 1> apex;
+        for (std::size_t k = 0; k < D; ++k) {
+            apex[k] = (cavity_.side.apex[k] - centre_[k]) / unit_;
+        }
+        apex[D] = 0; // half time
+        const auto cone = [&](std::array<Point<D + 1>, D + 1> corners, bool inward) {
+            corners[D] = apex;
+            add(corners, inward);
+        };
+        for (const Facet<D>& facet : cavity_.side_removed) {
+            std::array<Point<D + 1>, D + 1> below;
+            for (std::size_t k = 0; k < D; ++k) {
+                below[k] = at(mesh_.before, facet[k], -0.5);
+            }
+            cone(below, true);
+            for (std::size_t i = 0; i < D; ++i) {
+                if (is_around_side(facet, i)) {
+                    add_ridge(facet, i, cone);
+                }
+            }
+        }
+        for (const Facet<D>& facet : cavity_.side.added) {
+            std::array<Point<D + 1>, D + 1> above;
+            for (std::size_t k = 0; k < D; ++k) {
+                above[k] = facet[k] == Cavity<D>::new_vertex ? in_frame(cavity_.new_place, 0.5)
+                                                             : at(mesh_.now, facet[k], 0.5);
+            }
+            cone(above, false);
+        }
+    }
+
+    /// Whether no other facet that is removed has the ridge opposite to corner i.
+    bool is_around_side(const Facet<D>& facet, std::size_t i) const {
+        return std::none_of(cavity_.side_removed.begin(), cavity_.side_removed.end(), [&](const Facet<D>& f) {
+            std::size_t shared = 0;
+            for (std::size_t k = 0; k < D; ++k) {
+                shared += k != i && std::find(f.begin(), f.end(), facet[k]) != f.end() ? 1 : 0;
+            }
+            return shared == D - 1 && std::find(f.begin(), f.end(), facet[i]) == f.end();
+        });
+    }
+
+    /// Adds the cones over the prism above ridge i, with both diagonals.
+    template<class Cone>
+    void add_ridge(const Facet<D>& facet, std::size_t i, const Cone& cone) {
+        std::array<Index, D - 1> ridge;
+        for (std::size_t k = 0, n = 0; k < D; ++k) {
+            if (k != i) {
+                ridge[n++] = facet[k];
+            }
+        }
+        for (const bool reversed : {false, true}) {
+            for (std::size_t m = 0; m + 1 < D; ++m) {
+                std::array<Point<D + 1>, D + 1> corners;
+                for (std::size_t k = 0; k < D; ++k) {
+                    corners[k] = k <= m ? at(mesh_.before, ridge[k], -0.5) : at(mesh_.now, ridge[k - 1], 0.5);
+                }
+                cone(corners, (i + m) % 2 == (reversed ? 1 : 0));
+            }
+            if (D == 2) {
+                return; // over a vertex, there is one
+            }
+            std::reverse(ridge.begin(), ridge.end());
+        }
+    }
+
     void add_wall(const Facet<D>& outward) {
         std::size_t on_boundary = 0;
         for (const Index v : outward) {
@@ -120,9 +202,13 @@ private:
     }
 
     Point<D + 1> at(const Array<Point<D>>& places, Index v, double time) const {
+        return in_frame(places[v], time);
+    }
+
+    Point<D + 1> in_frame(const Point<D>& place, double time) const {
         Point<D + 1> point;
         for (std::size_t k = 0; k < D; ++k) {
-            point[k] = (places[v][k] - centre_[k]) / unit_;
+            point[k] = (place[k] - centre_[k]) / unit_;
         }
         point[D] = time;
         return point;

@@ -54,16 +54,13 @@ Point<D> CavityMaker<D>::half_way(Index v) const {
     return times(0.5, plus(mesh_.before[v], mesh_.now[v]));
 }
 
+/// Makes the cells of a split, whose new place and cells removed are known.
 template<int D>
-std::optional<Cavity<D>> CavityMaker<D>::split(Index a, Index b) {
-    Cavity<D> cavity;
-    if (!mesh_.gather_edge_star(a, b, cavity.removed) || !examine_removed(cavity)) {
-        return std::nullopt;
-    }
+void CavityMaker<D>::divide(Index a, Index b, Cavity<D>& cavity) const {
     cavity.kind = OperationKind::split;
-    cavity.new_place = times(0.5, plus(mesh_.now[a], mesh_.now[b]));
     cavity.new_target = 0.5 * (mesh_.target[a] + mesh_.target[b]);
     cavity.has_new_vertex = true;
+    cavity.edge = {a, b};
     cavity.kernel = times(0.5, plus(half_way(a), half_way(b)));
     for (const Index cell : cavity.removed) {
         for (const Index end : {a, b}) {
@@ -71,7 +68,28 @@ std::optional<Cavity<D>> CavityMaker<D>::split(Index a, Index b) {
             cavity.added.back()[place_in<D>(mesh_.cells[cell], end)] = Cavity<D>::new_vertex;
         }
     }
+}
+
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::split(Index a, Index b) {
+    Cavity<D> cavity;
+    if (!mesh_.gather_edge_star(a, b, cavity.removed) || !examine_removed(cavity)) {
+        return std::nullopt;
+    }
+    cavity.new_place = times(0.5, plus(mesh_.now[a], mesh_.now[b]));
+    divide(a, b, cavity);
     improve_new_place(a, b, cavity);
+    return finished(std::move(cavity));
+}
+
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::split_boundary(Index a, Index b) {
+    Cavity<D> cavity;
+    if (mesh_.gather_edge_star(a, b, cavity.removed) || !boundary_->split(a, b, cavity) ||
+        !examine_removed(cavity)) {
+        return std::nullopt;
+    }
+    divide(a, b, cavity);
     return finished(std::move(cavity));
 }
 
@@ -110,24 +128,62 @@ double CavityMaker<D>::least_quality(const Cavity<D>& cavity, double enough) con
     return least;
 }
 
+/// Makes the cells of a collapse, whose cells removed are known.
 template<int D>
-std::optional<Cavity<D>> CavityMaker<D>::collapse(Index ending, Index kept) {
-    if (mesh_.on_boundary[ending] != 0) {
-        return std::nullopt;
-    }
-    Cavity<D> cavity;
-    mesh_.gather_star(ending, cavity.removed);
-    if (!examine_removed(cavity)) {
-        return std::nullopt;
-    }
+void CavityMaker<D>::pull(Index ending, Index kept, Cavity<D>& cavity) const {
     cavity.kind = OperationKind::collapse;
     cavity.ended = ending;
+    cavity.edge = {ending, kept};
     cavity.kernel = half_way(ending);
     for (const Index cell : cavity.removed) {
         if (place_in<D>(mesh_.cells[cell], kept) > D) {
             cavity.added.push_back(mesh_.cells[cell]);
             cavity.added.back()[place_in<D>(mesh_.cells[cell], ending)] = kept;
         }
+    }
+}
+
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::collapse(Index ending, Index kept) {
+    Cavity<D> cavity;
+    if (mesh_.on_boundary[ending] != 0) {
+        return std::nullopt;
+    }
+    mesh_.gather_star(ending, cavity.removed);
+    if (!examine_removed(cavity)) {
+        return std::nullopt;
+    }
+    pull(ending, kept, cavity);
+    return finished(std::move(cavity));
+}
+
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::collapse_boundary(Index ending, Index kept) {
+    Cavity<D> cavity;
+    mesh_.gather_star(ending, cavity.removed);
+    if (!examine_removed(cavity) || !boundary_->collapse(ending, kept, cavity)) {
+        return std::nullopt;
+    }
+    pull(ending, kept, cavity);
+    return finished(std::move(cavity));
+}
+
+template<int D>
+std::optional<Cavity<D>> CavityMaker<D>::shift_boundary(Index vertex) {
+    Cavity<D> cavity;
+    mesh_.gather_star(vertex, cavity.removed);
+    if (!examine_removed(cavity) || !boundary_->shift(vertex, cavity)) {
+        return std::nullopt;
+    }
+    cavity.kind = OperationKind::shift;
+    cavity.ended = vertex;
+    cavity.has_new_vertex = true;
+    cavity.new_target = mesh_.target[vertex];
+    cavity.edge = {vertex, vertex};
+    cavity.kernel = half_way(vertex);
+    for (const Index cell : cavity.removed) {
+        cavity.added.push_back(mesh_.cells[cell]);
+        cavity.added.back()[place_in<D>(mesh_.cells[cell], vertex)] = Cavity<D>::new_vertex;
     }
     return finished(std::move(cavity));
 }
@@ -157,7 +213,8 @@ std::optional<Cavity<D>> CavityMaker<D>::flip_facet(Index cell, std::size_t i) {
 }
 
 /// The vertices around an edge, in order: each cell of its star has the edge and two that follow one another,
-/// and (a, b, ring[k], ring[k + 1]) is positive.
+/// and (a, b, ring[k], ring[k + 1]) is positive. Around an edge on the boundary, the last one is not followed
+/// by the first.
 template<int D>
 bool CavityMaker<D>::order_ring(Index a, Index b, const std::vector<Index>& star,
                                 std::vector<Index>& ring) const {
@@ -179,18 +236,22 @@ bool CavityMaker<D>::order_ring(Index a, Index b, const std::vector<Index>& star
         }
         steps.push_back({corners[order[odd ? D : D - 1]], corners[order[odd ? D - 1 : D]]});
     }
-    ring.assign(1, steps.front()[0]);
-    Index next = steps.front()[1];
-    while (next != ring.front() && ring.size() < steps.size()) {
-        ring.push_back(next);
-        const auto step =
-            std::find_if(steps.begin(), steps.end(), [&](const auto& s) { return s[0] == next; });
-        if (step == steps.end()) {
-            return false;
-        }
-        next = (*step)[1];
+    const auto from = [&](Index v) {
+        return std::find_if(steps.begin(), steps.end(), [&](const auto& s) { return s[0] == v; });
+    };
+    const auto first = std::find_if(steps.begin(), steps.end(), [&](const auto& step) {
+        return std::none_of(steps.begin(), steps.end(), [&](const auto& s) { return s[1] == step[0]; });
+    });
+    const bool open = first != steps.end();
+    ring.assign(1, open ? (*first)[0] : steps.front()[0]);
+    for (auto step = from(ring[0]); step != steps.end() && ring.size() <= steps.size();
+         step = from(ring.back())) {
+        ring.push_back((*step)[1]);
     }
-    return next == ring.front() && ring.size() == steps.size();
+    if (!open && ring.back() == ring.front()) {
+        ring.pop_back();
+    }
+    return ring.size() == steps.size() + (open ? 1 : 0);
 }
 
 template<int D>
@@ -198,9 +259,11 @@ std::optional<Cavity<D>> CavityMaker<D>::remove_edge(Index a, Index b) {
     if constexpr (D == 3) {
         Cavity<D> cavity;
         std::vector<Index> ring;
-        if (!mesh_.gather_edge_star(a, b, cavity.removed) || cavity.removed.size() > most_around_edge ||
-            cavity.removed.size() < 3 || !examine_removed(cavity) ||
-            !order_ring(a, b, cavity.removed, ring)) {
+        const bool inside = mesh_.gather_edge_star(a, b, cavity.removed);
+        if (cavity.removed.size() > most_around_edge - (inside ? 0 : 1) ||
+            cavity.removed.size() < (inside ? 3 : 2) || !examine_removed(cavity) ||
+            !order_ring(a, b, cavity.removed, ring) ||
+            (!inside && (boundary_ == nullptr || !boundary_->flip(a, b, cavity)))) {
             return std::nullopt;
         }
         cavity.kind = OperationKind::flip;

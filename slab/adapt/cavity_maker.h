@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slab/adapt/adapt_mesh.h"
+#include "slab/adapt/boundary_operations.h"
 
 #include <cstdint>
 #include <optional>
@@ -10,16 +11,17 @@
 namespace slabhull {
 
 /// Makes the cavities of operations on a mesh, as they would be at the layer's end. None where the operation
-/// is impossible: on the domain's boundary, or where a new cell would not be positive.
+/// is impossible: on a boundary that is not adapted, or where a new cell would not be positive.
 template<int D>
 class CavityMaker {
 public:
     /// An edge is removed only if no more cells than these surround it.
     static constexpr std::size_t most_around_edge = 7;
 
-    /// `taken`, by cell: whether a cell may not be removed any more.
-    explicit CavityMaker(const AdaptMesh<D>& mesh, const std::vector<std::uint8_t>* taken = nullptr)
-        : mesh_{mesh}, taken_{taken} {}
+    /// `taken`, by cell: whether a cell may not be removed any more. `boundary`: none if it stays as it is.
+    explicit CavityMaker(const AdaptMesh<D>& mesh, const std::vector<std::uint8_t>* taken = nullptr,
+                         const BoundaryOperations<D>* boundary = nullptr)
+        : mesh_{mesh}, taken_{taken}, boundary_{boundary} {}
 
     /// Operations whose new cells have a smaller quality than `factor` times that of the worst cell removed,
     /// or than `ceiling` if that is less, are not made.
@@ -28,15 +30,21 @@ public:
         ceiling_ = ceiling;
     }
 
-    /// Divides an edge by a vertex at its midpoint.
+    /// Divides an edge inside by a vertex near its midpoint.
     std::optional<Cavity<D>> split(Index a, Index b);
-    /// Pulls vertex `ending` onto its neighbour `kept`.
+    /// Pulls vertex `ending`, inside, onto its neighbour `kept`.
     std::optional<Cavity<D>> collapse(Index ending, Index kept);
+    // The same on the boundary.
+    std::optional<Cavity<D>> split_boundary(Index a, Index b);
+    std::optional<Cavity<D>> collapse_boundary(Index ending, Index kept);
+    /// Moves a vertex of the boundary along it.
+    std::optional<Cavity<D>> shift_boundary(Index vertex);
     /// Replaces a cell, and the one across its facet i, by those around the edge between their vertices
     /// opposite to the facet: two cells by two (D = 2), two by three (D = 3).
     std::optional<Cavity<D>> flip_facet(Index cell, std::size_t i);
     /// Replaces the cells around an edge by those that do not have it, the best of all triangulations of the
-    /// polygon around it (dynamic programming; Klincsek 1980). D = 3.
+    /// polygon around it (dynamic programming; Klincsek 1980). On the boundary, the edge is flipped there. D
+    /// = 3.
     std::optional<Cavity<D>> remove_edge(Index a, Index b);
 
 private:
@@ -50,9 +58,12 @@ private:
     std::optional<Cavity<D>> finished(Cavity<D>&& cavity) const;
     Point<D> half_way(Index v) const;
     bool order_ring(Index a, Index b, const std::vector<Index>& star, std::vector<Index>& ring) const;
+    void divide(Index a, Index b, Cavity<D>& cavity) const;
+    void pull(Index ending, Index kept, Cavity<D>& cavity) const;
 
     const AdaptMesh<D>& mesh_;
     const std::vector<std::uint8_t>* taken_;
+    const BoundaryOperations<D>* boundary_;
     double factor_ = 0;
     double ceiling_ = 1;
 };

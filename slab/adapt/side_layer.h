@@ -21,8 +21,9 @@ struct BoundaryChange {
 
 template<int D>
 struct SideLayer {
-    Boundary<D> boundary; ///< at the layer's start; its tracks are columns
-    Array<Point<D>> end;  ///< places of its vertices at the layer's end, also of those that end before
+    Boundary<D> boundary;       ///< at the layer's start
+    std::vector<Index> columns; ///< of its vertices
+    Array<Point<D>> end;        ///< their places at the layer's end, also of those that end before
     std::vector<BoundaryChange<D>> changes; ///< share no facet
 };
 
@@ -32,7 +33,8 @@ struct LayeredSweep {
     std::vector<double> times;
     std::vector<SideLayer<D>> layers;
     std::vector<Array<Point<D>>> places; ///< by level: of the vertices of its boundary
-    Boundary<D> last;                    ///< the boundary at the last level; its tracks are columns
+    Boundary<D> last;                    ///< the boundary at the last level ...
+    std::vector<Index> last_columns;     ///< ... and the columns of its vertices
 };
 
 } // namespace slabhull

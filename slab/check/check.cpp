@@ -186,7 +186,7 @@ private:
         if (findings_.any({Defect::untracked_boundary, Defect::track_repeats_time})) {
             findings_.skip("comparison of the caps' boundaries", "their tracks are not in order");
         } else {
-            check_boundary_image(boundary, findings_);
+            check_boundary_image(view_, boundary, findings_);
         }
     }
 

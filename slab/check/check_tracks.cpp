@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "slab/check/boundary_changes.h"
 #include "slab/check/hull_view.h"
 #include "slabhull/topology/spatial_mesh.h"
 
@@ -100,9 +101,9 @@ void each_track(const std::vector<TrackPoint>& points, const Visit& visit) {
 }
 
 /// `track`: the points of a track, by time. A track that is never on the side (`inside`) may begin or end in
-/// the slab, as a cap meshed anew has new inner vertices.
+/// the slab, as a cap meshed anew has new inner vertices; so may others at `ends`.
 void report_track(std::span<const TrackPoint> track, const std::array<double, 2>& slab, bool inside,
-                  Findings& findings) {
+                  const TrackEnds& ends, Findings& findings) {
     for (std::size_t k = 1; k < track.size(); ++k) {
         if (track[k].time == track[k - 1].time) {
             const std::array<Index, 2> both{track[k - 1].vertex, track[k].vertex};
@@ -110,9 +111,14 @@ void report_track(std::span<const TrackPoint> track, const std::array<double, 2>
                            fmt::format("track {}: two vertices at t = {}", track[k].track, track[k].time));
         }
     }
-    if (!inside && (track.front().time != slab[0] || track.back().time != slab[1])) {
-        const std::array<Index, 2> ends{track.front().vertex, track.back().vertex};
-        findings.other(Defect::track_incomplete, track_entities(track.front().track, ends, findings),
+    const auto is_among = [](Index vertex, const std::vector<Index>& vertices) {
+        return std::binary_search(vertices.begin(), vertices.end(), vertex);
+    };
+    const bool begins = track.front().time == slab[0] || is_among(track.front().vertex, ends.begun);
+    const bool stops = track.back().time == slab[1] || is_among(track.back().vertex, ends.ended);
+    if (!inside && (!begins || !stops)) {
+        const std::array<Index, 2> both{track.front().vertex, track.back().vertex};
+        findings.other(Defect::track_incomplete, track_entities(track.front().track, both, findings),
                        fmt::format("track {}: leads from t = {} to {}, not from {} to {}",
                                    track.front().track, track.front().time, track.back().time, slab[0],
                                    slab[1]));
@@ -132,13 +138,7 @@ BoundaryFacet<D> boundary_facet(const HullView<D>& view, Index cell, std::size_t
     if (view.region_of(cell) == Region::initial) {
         std::swap(facet.vertices[0], facet.vertices[1]); // an initial cell is negative in space
     }
-    for (std::size_t k = 0; k < D; ++k) {
-        facet.tracks[k] = view.track[facet.vertices[k]];
-        for (std::size_t j = 0; j < k; ++j) {
-            facet.odd ^= facet.tracks[j] > facet.tracks[k];
-        }
-    }
-    std::sort(facet.tracks.begin(), facet.tracks.end());
+    set_tracks(view, facet);
     return facet;
 }
 
@@ -224,14 +224,16 @@ void check_tracks(const HullView<D>& view, Findings& findings) {
         });
     });
     std::vector<std::uint8_t> on_side; // by vertex; used only for tracks that are not whole
+    TrackEnds ends;
     for (const std::vector<TrackPoint>& points : faulty) {
         if (!points.empty() && on_side.empty()) {
             on_side = mark_vertices(view, 1, [&](std::size_t c) { return !view.in_cap(c); });
+            ends = track_ends(view, find_boundary_changes(view));
         }
         each_track(points, [&](std::span<const TrackPoint> track) {
             const bool inside = std::none_of(track.begin(), track.end(),
                                              [&](const TrackPoint& p) { return on_side[p.vertex] != 0; });
-            report_track(track, view.time, inside, findings);
+            report_track(track, view.time, inside, ends, findings);
         });
     }
 }
@@ -261,14 +263,21 @@ BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findin
 }
 
 template<int D>
-void check_boundary_image(const BoundaryFacets<D>& boundary, Findings& findings) {
-    auto first = boundary[0].begin();
+void check_boundary_image(const HullView<D>& view, const BoundaryFacets<D>& boundary, Findings& findings) {
+    const auto on_same_tracks = [](const BoundaryFacet<D>& a, const BoundaryFacet<D>& b) {
+        return a.tracks == b.tracks;
+    };
+    const bool same = std::equal(boundary[0].begin(), boundary[0].end(), boundary[1].begin(),
+                                 boundary[1].end(), on_same_tracks);
+    const std::vector<BoundaryFacet<D>> expected =
+        same ? boundary[0] : after_changes<D>(boundary[0], find_boundary_changes(view));
+    auto first = expected.begin();
     auto image = boundary[1].begin();
-    while (first != boundary[0].end() || image != boundary[1].end()) {
-        if (image == boundary[1].end() || (first != boundary[0].end() && first->tracks < image->tracks)) {
+    while (first != expected.end() || image != boundary[1].end()) {
+        if (image == boundary[1].end() || (first != expected.end() && first->tracks < image->tracks)) {
             report(Defect::boundary_facet_lost, *first++, "the terminating cap has no facet on its tracks",
                    findings);
-        } else if (first == boundary[0].end() || image->tracks < first->tracks) {
+        } else if (first == expected.end() || image->tracks < first->tracks) {
             report(Defect::boundary_facet_added, *image++, "the initial cap has no facet on its tracks",
                    findings);
         } else {
@@ -286,7 +295,7 @@ template void check_tracks<2>(const HullView<2>&, Findings&);
 template void check_tracks<3>(const HullView<3>&, Findings&);
 template BoundaryFacets<2> check_cap_boundaries<2>(const HullView<2>&, Findings&);
 template BoundaryFacets<3> check_cap_boundaries<3>(const HullView<3>&, Findings&);
-template void check_boundary_image<2>(const BoundaryFacets<2>&, Findings&);
-template void check_boundary_image<3>(const BoundaryFacets<3>&, Findings&);
+template void check_boundary_image<2>(const HullView<2>&, const BoundaryFacets<2>&, Findings&);
+template void check_boundary_image<3>(const HullView<3>&, const BoundaryFacets<3>&, Findings&);
 
 } // namespace slabhull

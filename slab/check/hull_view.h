@@ -5,6 +5,7 @@
 #include "slabhull/geometry/measures.h"
 #include "slabhull/topology/adjacency.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -73,6 +74,19 @@ struct BoundaryFacet {
     Index side_cell;
 };
 
+/// Sets a facet's tracks and their parity from its vertices.
+template<int D>
+void set_tracks(const HullView<D>& view, BoundaryFacet<D>& facet) {
+    facet.odd = false;
+    for (std::size_t k = 0; k < D; ++k) {
+        facet.tracks[k] = view.track[facet.vertices[k]];
+        for (std::size_t j = 0; j < k; ++j) {
+            facet.odd ^= facet.tracks[j] > facet.tracks[k];
+        }
+    }
+    std::sort(facet.tracks.begin(), facet.tracks.end());
+}
+
 /// The boundary facets of the initial and of the terminating cap, sorted by tracks.
 template<int D>
 using BoundaryFacets = std::array<std::vector<BoundaryFacet<D>>, 2>;
@@ -111,7 +125,8 @@ CellSurvey<D> survey_cells(const HullView<D>& view, double sign = 1);
 // --- check_tracks.cpp
 // ------------------------------------------------------------------------------------------------
 
-/// Checks that each track has one vertex at a time and, on the side, leads from the slab's start to its end.
+/// Checks that each track has one vertex at a time and, on the side, leads from the slab's start to its end,
+/// unless a change of the boundary's connectivity begins or ends it.
 template<int D>
 void check_tracks(const HullView<D>& view, Findings& findings);
 
@@ -120,9 +135,10 @@ void check_tracks(const HullView<D>& view, Findings& findings);
 template<int D>
 BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findings);
 
-/// Checks that the terminating cap's boundary is exactly the image of the initial one's under the tracks.
+/// Checks that the terminating cap's boundary is exactly the image of the initial one's under the tracks and
+/// the changes of its connectivity.
 template<int D>
-void check_boundary_image(const BoundaryFacets<D>& boundary, Findings& findings);
+void check_boundary_image(const HullView<D>& view, const BoundaryFacets<D>& boundary, Findings& findings);
 
 // --- check_patches.cpp
 // -----------------------------------------------------------------------------------------------

@@ -153,6 +153,11 @@ void describe(const Hull<D>& hull, const SlabColumns<D>& columns, Filling<D>& fi
 
 template<int D>
 Filling<D> fill_slab(const Hull<D>& hull, StageClock& clock) {
+    if (hull.boundary_changes()) {
+        throw GeometryError{
+            "the hull's side is not made of equal prisms: a slab whose boundary changes its "
+            "connectivity ([adapt] boundary) is filled as it is built, by [fill] in its case"};
+    }
     if (!hull.adapt_settings.empty()) {
         const AdaptLog<D> log = log_of_hull(hull);
         clock.book("adapting the cap again");

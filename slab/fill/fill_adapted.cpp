@@ -3,8 +3,8 @@
 
 #include "slab/adapt/replace_cells.h"
 #include "slab/fill/describe_hull.h"
+#include "slab/fill/layer_side.h"
 #include "slab/fill/mend_cells.h"
-#include "slab/fill/side_walls.h"
 #include "slab/fill/staircase.h"
 #include "slab/fill/wall_pieces.h"
 #include "slabhull/core/error.h"
@@ -21,9 +21,11 @@ namespace slabhull {
 
 namespace {
 
-/// Numbers the filling's vertices on levels: the hull's, then the inner ones by inner level.
+/// Numbers the filling's vertices on levels: the hull's, then the inner ones by inner level. Sets the column
+/// of each of the hull's vertices that has one.
 template<int D>
-SlabColumns<D> columns_of_log(const Hull<D>& hull, const AdaptLog<D>& log, Filling<D>& filling) {
+SlabColumns<D> columns_of_log(const Hull<D>& hull, const AdaptLog<D>& log, std::vector<Index>& hull_column,
+                              Filling<D>& filling) {
     SlabColumns<D> columns;
     columns.times = log.times;
     columns.count = log.tracks.size();
@@ -33,6 +35,7 @@ SlabColumns<D> columns_of_log(const Hull<D>& hull, const AdaptLog<D>& log, Filli
         return static_cast<std::size_t>(std::lower_bound(log.tracks.begin(), log.tracks.end(), track) -
                                         log.tracks.begin());
     };
+    hull_column.assign(hull.points.size(), no_index);
     std::vector<TrackId> tracks(hull.points.size());
     hull.track_ids.copy(0, tracks.size(), tracks.data());
     for (std::size_t v = 0; v < tracks.size(); ++v) {
@@ -48,6 +51,7 @@ SlabColumns<D> columns_of_log(const Hull<D>& hull, const AdaptLog<D>& log, Filli
                                            log.times.begin());
         const std::size_t column = column_of(tracks[v]);
         columns.vertex[level * columns.count + column] = static_cast<Index>(v);
+        hull_column[v] = static_cast<Index>(column);
     }
     filling.points = hull.points;
     for (std::size_t level = 1; level < columns.layers(); ++level) {
@@ -70,17 +74,18 @@ template<int D>
 class AdaptedFiller {
 public:
     AdaptedFiller(const Hull<D>& hull, const AdaptLog<D>& log)
-        : hull_{hull}, log_{log}, columns_{columns_of_log(hull, log, filling_)},
-          levels_end_{filling_.points.size()}, cells_{log.cells} {
-        sort_initial_cells();
-    }
+        : hull_{hull}, log_{log}, columns_{columns_of_log(hull, log, hull_column_, filling_)},
+          levels_end_{filling_.points.size()}, cells_{log.cells} {}
 
     Filling<D> run(StageClock& clock) {
-        const SideWalls<D> walls{hull_, columns_};
-        WallPieces<D> pieces{walls, columns_, filling_};
+        WallPieces<D> pieces{columns_, filling_};
+        auto first = static_cast<Index>(hull_.initial_cells);
         for (std::size_t layer = 0; layer < columns_.layers(); ++layer) {
-            pieces.enter();
-            fill_layer(layer, walls, pieces);
+            const Index end = layer_end(first, layer);
+            const LayerSide<D> side{hull_, columns_, hull_column_, layer, {first, end}};
+            pieces.enter(side);
+            fill_layer(layer, side, pieces);
+            first = end;
         }
         filling_.steiner_points = filling_.points.size() - levels_end_;
         describe();
@@ -100,45 +105,16 @@ public:
     }
 
 private:
-    /// What SideWalls asks: the initial cap's cells with ascending columns, and their facets on the side.
-    void sort_initial_cells() {
-        columns_.cells.resize(hull_.initial_cells);
-        columns_.swept_facet.resize(hull_.initial_cells);
-        for (std::size_t c = 0; c < hull_.initial_cells; ++c) {
-            Simplex<D> cell;
-            for (std::size_t k = 0; k <= D; ++k) {
-                cell[k] = column_of_initial(hull_.cells[c][k]);
-            }
-            const SortedCell<D> sorted = sort_cell<D>(cell);
-            columns_.cells[c] = sorted.vertices;
-            for (std::size_t k = 0; k <= D; ++k) {
-                const Index across = hull_.neighbors[c][sorted.place[k]];
-                const bool inside = across < hull_.initial_cells;
-                columns_.swept_facet[c][k] =
-                    inside ? no_index
-                           : static_cast<Index>((across - hull_.initial_cells) / hull_.cells_per_prism %
-                                                hull_.facet_patch.size());
-                if (!inside) {
-                    side_.emplace_back(sorted.facet(k), columns_.swept_facet[c][k]);
-                }
-            }
+    /// The cell of the side behind those of a layer.
+    Index layer_end(Index first, std::size_t layer) const {
+        std::size_t end = first;
+        while (end < hull_.terminating_begin() && hull_.layer(end) == static_cast<int>(layer)) {
+            end = hull_.layer_end(end);
         }
-        std::sort(side_.begin(), side_.end());
+        return static_cast<Index>(end);
     }
 
-    Index column_of_initial(Index vertex) {
-        if (column_of_initial_.empty()) {
-            column_of_initial_.assign(hull_.initial_points, no_index);
-            for (Index k = 0; k < columns_.count; ++k) {
-                if (const Index v = columns_.at(0, k); v != no_index) {
-                    column_of_initial_[v] = k;
-                }
-            }
-        }
-        return column_of_initial_[vertex];
-    }
-
-    void fill_layer(std::size_t layer, const SideWalls<D>& walls, WallPieces<D>& pieces) {
+    void fill_layer(std::size_t layer, const LayerSide<D>& side, WallPieces<D>& pieces) {
         const std::size_t first = layer == 0 ? 0 : log_.layer_end[layer - 1];
         const std::size_t end = log_.layer_end[layer];
         std::vector<std::uint8_t> removed(cells_.size(), 0);
@@ -147,7 +123,7 @@ private:
         }
         for (std::size_t c = 0; c < cells_.size(); ++c) {
             if (removed[c] == 0) {
-                extrude(layer, cells_[c], walls, pieces);
+                extrude(layer, cells_[c], side, pieces);
             }
         }
         for (std::size_t k = first; k < end; ++k) {
@@ -168,9 +144,8 @@ private:
     }
 
     /// Fills the prism over a cell that stays.
-    void extrude(std::size_t layer, const Simplex<D>& cell, const SideWalls<D>& walls,
-                 WallPieces<D>& pieces) {
-        if (!walls.all_staircases() && pieces.meets_other_split(cell, side_)) {
+    void extrude(std::size_t layer, const Simplex<D>& cell, const LayerSide<D>& side, WallPieces<D>& pieces) {
+        if (!side.all_staircases() && pieces.meets_other_split(cell)) {
             Point<D + 1> centre{};
             for (const Index column : cell) {
                 for (const std::size_t level : {layer, layer + 1}) {
@@ -207,7 +182,7 @@ private:
     void cone_over(std::size_t layer, std::span<const Simplex<D>> below, std::span<const Simplex<D>> above,
                    const Point<D + 1>& place, WallPieces<D>& pieces) {
         outside_.clear();
-        pieces.append(layer, outer_facets(below), side_, outside_); // may add points
+        pieces.append(layer, outer_facets(below), outside_); // may add points
         const auto apex = static_cast<Index>(filling_.points.size());
         filling_.points.push_back(place);
         const auto add_level = [&](std::span<const Simplex<D>> cells, std::size_t level, bool odd) {
@@ -291,12 +266,10 @@ private:
     const Hull<D>& hull_;
     const AdaptLog<D>& log_;
     Filling<D> filling_;
+    std::vector<Index> hull_column_; ///< of each of the hull's vertices
     SlabColumns<D> columns_;
     std::size_t levels_end_;
-    Array<Simplex<D>> cells_; ///< at the start of the present layer, as columns
-    std::vector<std::pair<Facet<D>, Index>>
-        side_; ///< facets of the caps on the side, as columns; swept facet
-    std::vector<Index> column_of_initial_;
+    Array<Simplex<D>> cells_;         ///< at the start of the present layer, as columns
     std::vector<Simplex<D>> outside_; ///< of a cone: the pieces of its walls, outward
 };
 

@@ -110,14 +110,49 @@ private:
                 facets += across >= hull_.initial_cells ? 1 : 0;
             }
         }
-        if (facets == 0 || hull_.side_cells % (facets * hull_.layers) != 0) {
-            out_of_order("cell", hull_.initial_cells, "begins a side that is not split into equal prisms");
+        std::vector<double> times(levels.begin(), levels.end());
+        if (facets == 0 || hull_.side_cells % (facets * hull_.layers) != 0 || has_new_tracks()) {
+            part_changing_side(times);
+            return;
         }
         hull_.cells_per_prism = hull_.side_cells / (facets * hull_.layers);
         hull_.facet_patch.resize(facets);
-        std::vector<double> times(levels.begin(), levels.end());
         require_prisms(times);
         read_patches();
+    }
+
+    /// The side of a boundary that changes its connectivity: runs of cells of one patch in one layer.
+    void part_changing_side(const std::vector<double>& times) {
+        std::vector<std::int64_t> patch(hull_.side_cells, 0);
+        if (columns_.patch.given()) {
+            columns_.patch.fill(hull_.initial_cells, hull_.terminating_begin(), patch.data());
+        }
+        hull_.cells_per_prism = 0;
+        for (std::size_t k = 0; k < hull_.side_cells; ++k) {
+            const std::size_t c = hull_.initial_cells + k;
+            double first = hull_.time[1];
+            for (const Index v : hull_.cells[c]) {
+                first = std::min(first, hull_.points[v][D]);
+            }
+            const auto layer = static_cast<std::int32_t>(std::upper_bound(times.begin(), times.end(), first) -
+                                                         times.begin() - 1);
+            const auto number = static_cast<PatchNumber>(patch[k]);
+            std::vector<SidePart>& parts = hull_.side_parts;
+            if (parts.empty() || parts.back().layer != layer || parts.back().patch != number) {
+                parts.push_back({static_cast<Index>(c), number, layer});
+            }
+        }
+    }
+
+    /// Whether the side has tracks that the initial cap does not have.
+    bool has_new_tracks() const {
+        std::vector<std::int64_t> tracks(hull_.terminating_points_begin());
+        hull_.track_ids.copy(0, tracks.size(), tracks.data());
+        const auto side = tracks.begin() + static_cast<std::ptrdiff_t>(hull_.initial_points);
+        std::sort(tracks.begin(), side);
+        return std::any_of(side, tracks.end(), [&](std::int64_t track) {
+            return track != no_track && !std::binary_search(tracks.begin(), side, track);
+        });
     }
 
     /// Checks that each prism stands on the columns of its facet, between the levels of its layer.

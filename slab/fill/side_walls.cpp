@@ -10,21 +10,6 @@
 
 namespace slabhull {
 
-namespace {
-
-template<std::size_t N>
-std::array<Index, N> sorted(std::array<Index, N> vertices) {
-    std::sort(vertices.begin(), vertices.end());
-    return vertices;
-}
-
-template<std::size_t N>
-bool has(const std::array<Index, N>& cell, Index vertex) {
-    return std::find(cell.begin(), cell.end(), vertex) != cell.end();
-}
-
-} // namespace
-
 template<int D>
 SideWalls<D>::SideWalls(const Hull<D>& hull, const SlabColumns<D>& columns)
     : hull_{hull}, columns_{columns}, staircase_(hull.facet_patch.size(), 1) {
@@ -40,7 +25,9 @@ SideWalls<D>::SideWalls(const Hull<D>& hull, const SlabColumns<D>& columns)
         for (std::size_t layer = 0; layer < columns_.layers(); ++layer) {
             for (const auto& [facet, corners] : others_) {
                 for (std::size_t i = 0; i < 3; ++i) {
-                    read_quad(layer, facet, {corners[i == 0 ? 1 : 0], corners[i == 2 ? 1 : 2]});
+                    const std::array edge{corners[i == 0 ? 1 : 0], corners[i == 2 ? 1 : 2]};
+                    splits_[layer * edges_.size() + quad(edge[0], edge[1])] =
+                        read_quad_split<D>(hull_, columns_, layer, wall(layer, facet), edge);
                 }
             }
         }
@@ -53,7 +40,7 @@ void SideWalls<D>::read_wall(std::size_t cell, std::size_t k) {
     const Index facet = columns_.swept_facet[cell][k];
     const Facet<D> corners = without<D>(columns_.cells[cell], k);
     for (std::size_t layer = 0; layer < columns_.layers(); ++layer) {
-        if (!is_staircase(layer, facet, corners)) {
+        if (!is_staircase<D>(hull_, columns_, layer, wall(layer, facet), corners)) {
             staircase_[facet] = 0;
         }
     }
@@ -77,23 +64,6 @@ void SideWalls<D>::require_alike() const {
 }
 
 template<int D>
-bool SideWalls<D>::is_staircase(std::size_t layer, Index facet, const Facet<D>& corners) const {
-    if (hull_.cells_per_prism != D) {
-        return false;
-    }
-    const Index first = first_cell(layer, facet);
-    std::array<Simplex<D>, D> there;
-    std::array<Simplex<D>, D> expected;
-    for (std::size_t m = 0; m < D; ++m) {
-        there[m] = sorted(hull_.cells[first + m]);
-        expected[m] = sorted(staircase_piece<D>(columns_, layer, corners, m));
-    }
-    std::sort(there.begin(), there.end());
-    std::sort(expected.begin(), expected.end());
-    return there == expected;
-}
-
-template<int D>
 void SideWalls<D>::collect_edges() {
     for (const auto& [facet, corners] : others_) {
         for (std::size_t i = 0; i < D; ++i) {
@@ -105,48 +75,6 @@ void SideWalls<D>::collect_edges() {
     std::sort(edges_.begin(), edges_.end());
     edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
     splits_.resize(columns_.layers() * edges_.size());
-}
-
-/// Reads the split of the quadrilateral over `edge`, an edge of the facet.
-template<int D>
-void SideWalls<D>::read_quad(std::size_t layer, Index facet, const std::array<Index, 2>& edge) {
-    const std::array<Index, 2> below{columns_.at(layer, edge[0]), columns_.at(layer, edge[1])};
-    const std::array<Index, 2> above{columns_.at(layer + 1, edge[0]), columns_.at(layer + 1, edge[1])};
-    const Index first = first_cell(layer, facet);
-    bool rising = false;
-    bool falling = false;
-    for (Index c = first; c < first + cells_per_wall(); ++c) {
-        rising = rising || (has(hull_.cells[c], below[0]) && has(hull_.cells[c], above[1]));
-        falling = falling || (has(hull_.cells[c], below[1]) && has(hull_.cells[c], above[0]));
-    }
-    QuadSplit& split = splits_[layer * edges_.size() + quad(edge[0], edge[1])];
-    split.rising = rising;
-    split.centre = rising || falling ? no_index : centre_of(layer, facet, below);
-}
-
-/// The centre of a quadrilateral: the third corner of the triangle with the bottom edge on the wall's
-/// outside.
-template<int D>
-Index SideWalls<D>::centre_of(std::size_t layer, Index facet, const std::array<Index, 2>& bottom) const {
-    const Index first = first_cell(layer, facet);
-    const auto here = [&](Index c) { return first <= c && c < first + cells_per_wall(); };
-    for (Index c = first; c < first + cells_per_wall(); ++c) {
-        if (!has(hull_.cells[c], bottom[0]) || !has(hull_.cells[c], bottom[1])) {
-            continue;
-        }
-        for (std::size_t i = 0; i <= D; ++i) { // facet i is opposite to vertex i
-            for (const Index v : hull_.cells[c]) {
-                if (!here(hull_.neighbors[c][i]) && !has(bottom, hull_.cells[c][i]) && !has(bottom, v) &&
-                    v != hull_.cells[c][i] && hull_.track_ids[v] == no_track) {
-                    return v;
-                }
-            }
-        }
-    }
-    throw GeometryError{fmt::format("the hull's side over swept facet {} in layer {} is split neither by a "
-                                    "diagonal nor by a centre above vertices {} and {}; check the hull first",
-                                    facet, layer, bottom[0], bottom[1]),
-                        {{"cell", first, {}}}};
 }
 
 template<int D>

@@ -2,22 +2,13 @@
 #pragma once
 
 #include "slab/fill/slab_columns.h"
+#include "slab/fill/wall_split.h"
 
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace slabhull {
-
-/// How the quadrilateral over an edge of the cap is split, for its columns a < b: around a centre, or by the
-/// diagonal from a below to b above ("rising") or from b below to a above.
-struct QuadSplit {
-    Index centre = no_index;
-    bool rising = true;
-
-    bool staircase() const { return centre == no_index && rising; }
-    std::size_t pieces() const { return centre == no_index ? 2 : 4; }
-};
 
 /// The split of a hull's side, which the prisms inside must match. A wall is the prism that a facet of the
 /// cap sweeps in a layer. A staircase is a wall or quadrilateral whose diagonals all rise; being the usual
@@ -49,11 +40,12 @@ public:
 
 private:
     void read_wall(std::size_t cell, std::size_t k);
-    bool is_staircase(std::size_t layer, Index facet, const Facet<D>& corners) const;
+    CellRange wall(std::size_t layer, Index facet) const {
+        const Index first = first_cell(layer, facet);
+        return {first, static_cast<Index>(first + cells_per_wall())};
+    }
     void collect_edges();
     void require_alike() const;
-    void read_quad(std::size_t layer, Index facet, const std::array<Index, 2>& edge);
-    Index centre_of(std::size_t layer, Index facet, const std::array<Index, 2>& bottom) const;
 
     const Hull<D>& hull_;
     const SlabColumns<D>& columns_;

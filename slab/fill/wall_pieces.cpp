@@ -9,22 +9,15 @@
 namespace slabhull {
 
 template<int D>
-Index WallPieces<D>::swept_facet(const Facet<D>& sorted, const SideFacets& side) {
-    const auto found = std::lower_bound(side.begin(), side.end(), std::pair{sorted, Index{0}});
-    return found != side.end() && found->first == sorted ? found->second : no_index;
-}
-
-template<int D>
-bool WallPieces<D>::meets_other_split(const Simplex<D>& cell, const SideFacets& side) const {
+bool WallPieces<D>::meets_other_split(const Simplex<D>& cell) const {
     Simplex<D> sorted = cell;
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t k = 0; k <= D; ++k) {
-        if (const Index facet = swept_facet(without<D>(sorted, k), side);
-            facet != no_index && !walls_.staircase(facet)) {
+        if (const auto* wall = side_->wall(without<D>(sorted, k)); wall != nullptr && !wall->staircase) {
             return true;
         }
         for (std::size_t j = 0; D == 3 && j < k; ++j) {
-            if (walls_.quad(sorted[j], sorted[k]) != no_index) {
+            if (side_->quad(sorted[j], sorted[k]) != nullptr) {
                 return true;
             }
         }
@@ -33,21 +26,23 @@ bool WallPieces<D>::meets_other_split(const Simplex<D>& cell, const SideFacets& 
 }
 
 template<int D>
-void WallPieces<D>::append(std::size_t layer, std::span<const Facet<D>> facets, const SideFacets& side,
+void WallPieces<D>::append(std::size_t layer, std::span<const Facet<D>> facets,
                            std::vector<Simplex<D>>& pieces) {
+    std::vector<Index> met; // first cells of walls: a change has several facets
     for (const Facet<D>& outward : facets) {
         const auto [facet, place, odd] = sort_cell<D - 1>(outward);
-        if (const Index swept = swept_facet(facet, side); swept != no_index) {
-            const Index first = walls_.first_cell(layer, swept);
-            for (Index c = first; c < first + walls_.cells_per_wall(); ++c) {
-                pieces.push_back(walls_.hull().cells[c]); // outward, as hulls have them
+        if (const auto* wall = side_->wall(facet)) {
+            if (std::find(met.begin(), met.end(), wall->cells.first) == met.end()) {
+                met.push_back(wall->cells.first);
+                const auto cells = side_->hull().cells.begin(); // outward, as hulls have them
+                pieces.insert(pieces.end(), cells + wall->cells.first, cells + wall->cells.end);
             }
             continue;
         }
         bool other = false;
         for (std::size_t i = 0; D == 3 && i < D; ++i) {
             for (std::size_t j = 0; j < i; ++j) {
-                other = other || walls_.quad(facet[j], facet[i]) != no_index;
+                other = other || side_->quad(facet[j], facet[i]) != nullptr;
             }
         }
         other ? append_cone(layer, facet, odd, pieces) : append_staircase(layer, facet, odd, pieces);
@@ -106,8 +101,8 @@ void WallPieces<D>::append_cone(std::size_t layer, const Facet<D>& sorted, bool 
             const std::size_t i = k == 2 ? 0 : k; // the edges 01, 12 and 20 run around the facet
             const std::size_t j = k == 2 ? 2 : k + 1;
             const bool against = k == 2;
-            const Index number = walls_.quad(sorted[i], sorted[j]);
-            const QuadSplit split = number == no_index ? QuadSplit{} : walls_.split(layer, number);
+            const QuadSplit* other = side_->quad(sorted[i], sorted[j]);
+            const QuadSplit split = other == nullptr ? QuadSplit{} : *other;
             const auto quad = [&](Index a, Index b, Index c) { against ? add(a, c, b) : add(a, b, c); };
             if (split.centre != no_index) {
                 quad(split.centre, below[j], below[i]);

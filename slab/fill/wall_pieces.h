@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "slab/fill/side_walls.h"
+#include "slab/fill/layer_side.h"
 #include "slab/fill/slab_columns.h"
 #include "slabhull/topology/filling.h"
 
@@ -18,32 +18,29 @@ namespace slabhull {
 template<int D>
 class WallPieces {
 public:
-    /// Facets on the side with ascending columns, and the number of the swept facet.
-    using SideFacets = std::vector<std::pair<Facet<D>, Index>>;
-
     /// Centres of walls are appended to the points of the filling.
-    WallPieces(const SideWalls<D>& walls, const SlabColumns<D>& columns, Filling<D>& filling)
-        : walls_{walls}, columns_{columns}, filling_{filling} {}
+    WallPieces(const SlabColumns<D>& columns, Filling<D>& filling) : columns_{columns}, filling_{filling} {}
 
-    /// Starts a layer.
-    void enter() { centres_.clear(); }
+    /// Starts a layer with this side, which must outlive it.
+    void enter(const LayerSide<D>& side) {
+        side_ = &side;
+        centres_.clear();
+    }
 
     /// Whether the prism over a cell of the cap meets a wall or quadrilateral of the side that is no
     /// staircase.
-    bool meets_other_split(const Simplex<D>& cell, const SideFacets& side) const;
+    bool meets_other_split(const Simplex<D>& cell) const;
 
     /// Appends the pieces of the walls over some facets, which are outward: outward pieces.
-    void append(std::size_t layer, std::span<const Facet<D>> facets, const SideFacets& side,
-                std::vector<Simplex<D>>& pieces);
+    void append(std::size_t layer, std::span<const Facet<D>> facets, std::vector<Simplex<D>>& pieces);
 
 private:
-    static Index swept_facet(const Facet<D>& sorted, const SideFacets& side);
     void append_staircase(std::size_t layer, const Facet<D>& sorted, bool odd,
                           std::vector<Simplex<D>>& pieces) const;
     void append_cone(std::size_t layer, const Facet<D>& sorted, bool odd, std::vector<Simplex<D>>& pieces);
     Index centre(std::size_t layer, const Facet<D>& sorted);
 
-    const SideWalls<D>& walls_;
+    const LayerSide<D>* side_ = nullptr;
     const SlabColumns<D>& columns_;
     Filling<D>& filling_;
     std::map<Facet<D>, Index> centres_; ///< of the layer's walls

@@ -63,7 +63,7 @@ void March<D>::accept(Slab<D>&& slab) {
     state_.time = slab.hull.time[1];
     state_.cap = {}; // before the next one is made
     state_.cap = slab.terminating();
-    state_.boundary = state_.boundary.bounding(state_.cap.vertex_ids);
+    state_.boundary = slab.boundary.value_or(state_.boundary).bounding(state_.cap.vertex_ids);
     slab.hull = {};
     first_id_ = first_id();
     state_.ids = slab.next_ids;

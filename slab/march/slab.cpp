@@ -4,6 +4,7 @@
 #include "geometry/meshing/cap_limits.h"
 #include "slab/adapt/adapt_cap.h"
 #include "slab/march/cap_reuse.h"
+#include "slab/stitch/layered_side.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/progress.h"
 #include "slabhull/geometry/measures.h"
@@ -13,6 +14,8 @@
 
 #include <algorithm>
 #include <climits>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace slabhull {
@@ -24,9 +27,29 @@ template<int D>
 struct NewCap {
     CapMesh<D> mesh;
     std::vector<Index> column;
-    std::size_t columns = 0;     ///< in all
-    std::vector<double> spacing; ///< targets on the boundary
+    std::size_t columns = 0;               ///< in all
+    std::vector<double> spacing;           ///< targets on the boundary
+    std::optional<LayeredSweep<D>> side{}; ///< of a boundary whose connectivity was adapted
 };
+
+/// Wanted length of edges at each vertex of the boundary.
+template<int D>
+std::vector<double> boundary_spacing(const Boundary<D>& boundary, const AdaptOptions& options) {
+    if (!boundary.spacing().empty()) {
+        return {boundary.spacing().begin(), boundary.spacing().end()};
+    }
+    std::vector<double> spacing = boundary.mean_edges(boundary.start());
+    std::vector<double> given(spacing.size(), std::numeric_limits<double>::infinity());
+    for (const auto& [patch, wanted] : options.patches) {
+        for (const Index v : boundary.vertices_of({patch})) {
+            given[v] = std::min(given[v], wanted.size.value_or(given[v]));
+        }
+    }
+    for (std::size_t v = 0; v < spacing.size(); ++v) {
+        spacing[v] = std::isfinite(given[v]) ? given[v] : spacing[v];
+    }
+    return spacing;
+}
 
 template<int D>
 NewCap<D> make_adapted_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const SlabSettings<D>& settings,
@@ -34,14 +57,17 @@ NewCap<D> make_adapted_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const
     enter_stage("cap adapting");
     require_attainable<D>(sweep.at(0), settings.adapt.size, "adapt.size");
     initial.give_tracks(tracks_throughout(initial.mesh()));
-    std::vector<double> spacing = sweep.boundary.mean_edges(sweep.boundary.start());
-    AdaptedCap<D> adapted =
-        adapt_cap<D>(initial.mesh(), initial.tracks(),
-                     {sweep.boundary.mesh_vertices(), sweep.times, sweep.positions, spacing}, settings.adapt);
+    std::vector<double> spacing = boundary_spacing(sweep.boundary, settings.adapt);
+    const BoundaryMotion<D> motion{sweep.boundary, settings.motions, settings.motion_start,
+                                   settings.trajectory};
+    AdaptedCap<D> adapted = adapt_cap<D>(
+        initial.mesh(), initial.tracks(),
+        {sweep.boundary.mesh_vertices(), sweep.times, sweep.positions, spacing, &motion}, settings.adapt);
     slab.cap_moved = true;
     slab.adapted.emplace(Adaptation<D>{adapted.report, std::move(adapted.log)});
     clock.book("cap adapting");
-    return {std::move(adapted.mesh), std::move(adapted.column), adapted.columns, std::move(spacing)};
+    return {std::move(adapted.mesh), std::move(adapted.column), adapted.columns, std::move(spacing),
+            std::move(adapted.side)};
 }
 
 /// The terminating cap: moved where that is wanted and good enough, else meshed.
@@ -169,6 +195,7 @@ Sweep<D> checked_sweep(const Boundary<D>& boundary, const SpatialMesh<D>& cap, s
 
 constexpr int most_halvings = 6;   ///< of layers, for an adapted cap
 constexpr int most_for_angles = 2; ///< the same if only its angles ask for them
+constexpr int most_for_sizes = 3;  ///< ... or only the boundary's edges
 
 /// Whether the smallest angle of an adapted cap is about the one aimed at, or no worse than it was.
 template<int D>
@@ -177,8 +204,19 @@ bool keeps_angles(const SpatialMesh<D>& initial, const Slab<D>& slab, const Adap
     return now >= 0.75 * options.angle ||
            now >= 0.9 * measure_solid<D>(initial.points, initial.cells).angles.smallest;
 }
+
+/// Whether the boundary's edges are about as long as they are meant to be, where they are kept to that.
+template<int D>
+bool keeps_sizes(const Slab<D>& slab, const AdaptOptions& options) {
+    constexpr double shortest = 0.6;
+    const auto& ratios = slab.adapted->report.boundary_ratios;
+    const auto& before = slab.adapted->report.boundary_ratios_before;
+    return !ratios || ((*ratios)[0] >= std::min(shortest, (*before)[0]) &&
+                       (*ratios)[1] <= std::max(options.longest, (*before)[1]));
+}
+
 /// Sweeps the boundary and makes the terminating cap. Layers are halved while cells of an adapted cap would
-/// be inside out, or its angles have become too small.
+/// be inside out, its angles have become too small, or the boundary's edges are not kept to their lengths.
 template<int D>
 std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boundary<D>& boundary,
                                              std::vector<double> times, SlabSettings<D> settings,
@@ -195,8 +233,10 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
         try {
             NewCap<D> cap = make_adapted_cap<D>(initial, sweep, settings, slab, clock);
             slab.adapted->report.halvings = halvings;
-            if (last || halvings >= most_for_angles ||
-                keeps_angles<D>(initial.mesh(), slab, settings.adapt)) {
+            const bool good_angles =
+                halvings >= most_for_angles || keeps_angles<D>(initial.mesh(), slab, settings.adapt);
+            const bool good_sizes = halvings >= most_for_sizes || keeps_sizes<D>(slab, settings.adapt);
+            if (last || (good_angles && good_sizes)) {
                 return {std::move(sweep), std::move(cap)};
             }
         } catch (const InvertedCap&) {
@@ -212,6 +252,47 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
     }
 }
 
+/// Stitches a slab whose boundary keeps its connectivity.
+template<int D>
+void stitch_slab(CapToStitch<D>& initial, const Sweep<D>& sweep, NewCap<D>&& cap,
+                 const SlabSettings<D>& settings, IdCounter& ids, Slab<D>& slab) {
+    IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
+    SpatialMesh<D> terminating = terminating_cap<D>(sweep.boundary, std::move(cap.mesh), ids);
+    if (settings.reuse == CapReuse::move) {
+        track_inside<D>(initial, sweep, slab, terminating);
+    }
+    if (slab.adapted) {
+        track_adapted<D>(cap, ids, slab.adapted->log, terminating);
+    }
+    slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
+    const auto facets = sweep.boundary.facets();
+    slab.terminating_facets.assign(facets.begin(), facets.end());
+}
+
+/// The boundary with the tracks that its vertices have by now.
+template<int D>
+Boundary<D> with_tracks(const Boundary<D>& boundary, const SpatialMesh<D>& cap) {
+    const auto count = static_cast<std::ptrdiff_t>(boundary.vertex_count());
+    const std::span<const double> spacing = boundary.spacing();
+    return Boundary<D>{boundary.start_surface(),
+                       Array<TrackId>(cap.track_ids.begin(), cap.track_ids.begin() + count),
+                       Array<double>(spacing.begin(), spacing.end())};
+}
+
+/// Stitches a slab whose boundary changes its connectivity.
+template<int D>
+void stitch_adapted(CapToStitch<D>& initial, NewCap<D>&& cap, const SlabSettings<D>& settings, IdCounter& ids,
+                    Slab<D>& slab) {
+    const Boundary<D>& last = cap.side->last;
+    LayeredSide<D> side{initial.mesh().points.size(), *cap.side, settings.side};
+    IdCounter side_ids{ids.take(side.points())};
+    SpatialMesh<D> terminating = terminating_cap<D>(last, std::move(cap.mesh), ids);
+    track_adapted<D>(cap, ids, slab.adapted->log, terminating);
+    slab.terminating_facets.assign(last.facets().begin(), last.facets().end());
+    slab.boundary = with_tracks<D>(last, terminating);
+    slab.hull = std::move(side).stitch(initial, std::move(terminating), slab.adapted->log.tracks, side_ids);
+}
+
 } // namespace
 
 template<int D>
@@ -220,20 +301,13 @@ Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int numb
     Slab<D> slab;
     auto [sweep, cap] = sweep_and_cap<D>(initial, boundary, times, settings, slab, clock);
     clock.run("stitching", [&] {
-        IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
-        SpatialMesh<D> terminating = terminating_cap<D>(sweep, std::move(cap.mesh), ids);
-        if (settings.reuse == CapReuse::move) {
-            track_inside<D>(initial, sweep, slab, terminating);
-        }
-        if (slab.adapted) {
-            track_adapted<D>(cap, ids, slab.adapted->log, terminating);
-        }
-        slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
+        std::vector<double> spacing = std::move(cap.spacing);
+        cap.side ? stitch_adapted<D>(initial, std::move(cap), settings, ids, slab)
+                 : stitch_slab<D>(initial, sweep, std::move(cap), settings, ids, slab);
         if (slab.adapted) {
             slab.hull.adapt_settings = settings_as_numbers(settings.adapt);
-            slab.hull.adapt_spacing = std::move(cap.spacing);
+            slab.hull.adapt_spacing = std::move(spacing);
         }
-        slab.terminating_facets.assign(boundary.facets().begin(), boundary.facets().end());
         slab.hull.slab = number;
         slab.projected = std::move(sweep.projected);
         slab.next_ids = ids;

@@ -114,13 +114,13 @@ LayeredSide<D>::LayeredSide(std::size_t initial_points, const LayeredSweep<D>& s
 template<int D>
 void LayeredSide<D>::enter_level(std::size_t level) {
     const bool last = level == sweep_.layers.size();
-    const Boundary<D>& boundary = last ? sweep_.last : sweep_.layers[level].boundary;
+    const std::vector<Index>& columns = last ? sweep_.last_columns : sweep_.layers[level].columns;
     std::vector<Index>& vertex = vertex_of_column_.emplace_back();
-    for (Index v = 0; v < boundary.vertex_count(); ++v) {
-        const auto column = static_cast<std::size_t>(boundary.tracks()[v]);
+    for (Index v = 0; v < columns.size(); ++v) {
+        const std::size_t column = columns[v];
         vertex.resize(std::max(vertex.size(), column + 1), no_index);
         if (level == 0) {
-            vertex[column] = boundary.mesh_vertices()[v];
+            vertex[column] = sweep_.layers.front().boundary.mesh_vertices()[v];
         } else if (last) {
             vertex[column] = on_terminating - v;
         } else {
@@ -274,7 +274,7 @@ void LayeredSide<D>::add_layer(std::size_t number, const SideOptions& options) {
     }
     enter_level(number + 1);
     for (Index v = 0; v < below; ++v) {
-        const auto column = static_cast<Index>(boundary.tracks()[v]);
+        const Index column = layer.columns[v];
         const std::vector<Index>& above = vertex_of_column_[number + 1];
         vertex[v] = level_vertex(number, column);
         vertex[builder.vertices.end() + v] = column < above.size() ? above[column] : no_index;

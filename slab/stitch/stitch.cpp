@@ -17,7 +17,7 @@ namespace slabhull {
 
 namespace {
 
-constexpr std::size_t items_per_piece = 1 << 15;
+constexpr std::size_t items_per_step = 1 << 15;
 constexpr std::size_t prisms_per_piece = 1 << 12;
 
 template<class Body>
@@ -109,7 +109,7 @@ private:
                    double t) {
         cap.release(&SpatialMesh<D>::vertex_ids);
         cap.release(&SpatialMesh<D>::track_ids);
-        for_each_index(cap.mesh().points.size(), items_per_piece, [&](std::size_t v) {
+        for_each_index(cap.mesh().points.size(), items_per_step, [&](std::size_t v) {
             hull_.points[first_point + v] = at_time<D>(cap.mesh().points[v], t);
         });
         cap.release(&SpatialMesh<D>::points);
@@ -126,7 +126,7 @@ private:
     template<class Row>
     static void place_rows(const Array<Row>& rows, Array<Row>& hull, std::size_t first, Index shift,
                            bool turned) {
-        for_each_index(rows.size(), items_per_piece, [&](std::size_t k) {
+        for_each_index(rows.size(), items_per_step, [&](std::size_t k) {
             Row row = rows[k];
             for (Index& entry : row) {
                 entry += shift;
@@ -140,7 +140,7 @@ private:
 
     void place_side_vertices() {
         for (std::size_t level = 1; level < sweep_.layers(); ++level) {
-            for_each_index(sweep_.boundary.vertex_count(), items_per_piece, [&](std::size_t v) {
+            for_each_index(sweep_.boundary.vertex_count(), items_per_step, [&](std::size_t v) {
                 hull_.points[vertices_.on_level(level, static_cast<Index>(v))] =
                     at_time<D>(sweep_.positions[level][v], sweep_.times[level]);
             });
@@ -289,8 +289,7 @@ private:
 } // namespace
 
 template<int D>
-SpatialMesh<D> terminating_cap(const Sweep<D>& sweep, CapMesh<D>&& mesh, IdCounter& ids) {
-    const Boundary<D>& boundary = sweep.boundary;
+SpatialMesh<D> terminating_cap(const Boundary<D>& boundary, CapMesh<D>&& mesh, IdCounter& ids) {
     SpatialMesh<D> cap;
     cap.boundary_facets.assign(boundary.facets().begin(), boundary.facets().end());
     cap.boundary_patch.assign(boundary.patch().begin(), boundary.patch().end());
@@ -314,12 +313,12 @@ SpatialMesh<D> terminating_cap_of(const Hull<D>& hull, Array<Facet<D>> boundary_
     const std::size_t first_cell = hull.terminating_begin();
     SpatialMesh<D> cap;
     cap.points.resize(hull.points.size() - first_point);
-    for_each_index(cap.points.size(), items_per_piece, [&](std::size_t v) {
+    for_each_index(cap.points.size(), items_per_step, [&](std::size_t v) {
         std::copy_n(hull.points[first_point + v].begin(), D, cap.points[v].begin());
     });
     cap.cells.resize(hull.cells.size() - first_cell);
     cap.neighbors.resize(cap.cells.size());
-    for_each_index(cap.cells.size(), items_per_piece, [&](std::size_t c) {
+    for_each_index(cap.cells.size(), items_per_step, [&](std::size_t c) {
         for (std::size_t i = 0; i <= D; ++i) {
             const Index across = hull.neighbors[first_cell + c][i];
             cap.cells[c][i] = hull.cells[first_cell + c][i] - static_cast<Index>(first_point);
@@ -359,8 +358,8 @@ Hull<D> stitch(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> ter
     return Stitcher<D>{initial, sweep, terminating, options, ids}.run();
 }
 
-template SpatialMesh<2> terminating_cap<2>(const Sweep<2>&, CapMesh<2>&&, IdCounter&);
-template SpatialMesh<3> terminating_cap<3>(const Sweep<3>&, CapMesh<3>&&, IdCounter&);
+template SpatialMesh<2> terminating_cap<2>(const Boundary<2>&, CapMesh<2>&&, IdCounter&);
+template SpatialMesh<3> terminating_cap<3>(const Boundary<3>&, CapMesh<3>&&, IdCounter&);
 template std::size_t side_vertex_count<2>(const Sweep<2>&, Split);
 template std::size_t side_vertex_count<3>(const Sweep<3>&, Split);
 template Hull<2> stitch<2>(CapToStitch<2>, const Sweep<2>&, CapToStitch<2>, const SideOptions&, IdCounter&);

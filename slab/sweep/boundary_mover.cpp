@@ -218,7 +218,8 @@ void BoundaryMover<D>::project_crease(const Crease& crease, Array<Point<D>>& pla
                                       std::span<const double> room, double to) {
     std::vector<PlacedSurface<D>> surfaces;
     for (const PatchNumber patch : crease.patches) {
-        surfaces.push_back({motions_.at(patch).surface.get(), placement(patch, to)});
+        const MovingPatch<D>& moving = motions_.at(patch);
+        surfaces.push_back({moving.surface.get(), surface_placement(moving, motion_start_, to)});
     }
     std::vector<Point<D>> projected;
     for (const Index v : crease.vertices) {
@@ -258,13 +259,6 @@ void BoundaryMover<D>::require_room(const Crease& crease, std::span<const double
             fmt::join(places[v], ", "), moved[worst], room[v]);
         throw GeometryError(message, std::move(too_far));
     }
-}
-
-/// The placement of a projection surface; it stands still if its patch stretches.
-template<int D>
-AffineMap<D> BoundaryMover<D>::placement(PatchNumber patch, double to) const {
-    const MotionPointer<D>& motion = motions_.at(patch).motion;
-    return motion == nullptr ? AffineMap<D>{} : motion->map(motion_start_, to).value();
 }
 
 template class BoundaryMover<2>;

@@ -13,6 +13,13 @@
 
 namespace slabhull {
 
+/// Where the projection surface of a patch is at a time: it moves with the patch, and stands still if that
+/// stretches.
+template<int D>
+AffineMap<D> surface_placement(const MovingPatch<D>& moving, double motion_start, double to) {
+    return moving.motion == nullptr ? AffineMap<D>{} : moving.motion->map(motion_start, to).value();
+}
+
 /// Takes the boundary of a domain from one time to another: step 3 of the method for all patches together.
 /// Field motions are integrated, nodal ones evaluated, stretching patches follow them; finally vertices are
 /// projected onto the surfaces of their patches.
@@ -72,7 +79,6 @@ private:
                         double to);
     void require_room(const Crease& crease, std::span<const double> moved, std::span<const double> room,
                       const Array<Point<D>>& places, double to) const;
-    AffineMap<D> placement(PatchNumber patch, double to) const;
     [[noreturn]] void refuse(const MotionGroup& a, const MotionGroup& b, double to) const;
     std::string names(const std::vector<PatchNumber>& patches) const;
     Entity vertex_entity(Index vertex, const std::vector<PatchNumber>& patches) const;

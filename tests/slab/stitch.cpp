@@ -337,19 +337,19 @@ LayeredSweep<D> in_layers(const SlabParts<D>& parts, std::vector<TrackId>& track
     const Sweep<D>& sweep = parts.sweep;
     tracks.assign(sweep.boundary.tracks().begin(), sweep.boundary.tracks().end());
     std::sort(tracks.begin(), tracks.end());
-    Array<TrackId> columns;
+    std::vector<Index> columns;
     for (const TrackId track : sweep.boundary.tracks()) {
-        columns.push_back(std::lower_bound(tracks.begin(), tracks.end(), track) - tracks.begin());
+        const auto column = std::lower_bound(tracks.begin(), tracks.end(), track) - tracks.begin();
+        columns.push_back(static_cast<Index>(column));
     }
     LayeredSweep<D> layered;
     layered.times = sweep.times;
-    const Boundary<D> renamed = Boundary<D>{sweep.boundary.start_surface(), columns}.bounding(
-        {}, Array<Index>(sweep.boundary.mesh_vertices().begin(), sweep.boundary.mesh_vertices().end()));
     for (std::size_t layer = 0; layer < sweep.layers(); ++layer) {
-        layered.layers.push_back({renamed, sweep.positions[layer + 1], {}});
+        layered.layers.push_back({sweep.boundary, columns, sweep.positions[layer + 1], {}});
     }
     layered.places = sweep.positions;
-    layered.last = renamed;
+    layered.last = sweep.boundary;
+    layered.last_columns = columns;
     return layered;
 }
 

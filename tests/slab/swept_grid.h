@@ -88,7 +88,8 @@ SlabParts<D> next_slab(SpatialMesh<D> initial, std::vector<double> times, const 
     parts.initial = std::move(initial);
     parts.sweep = sweep_boundary<D>(boundary_of(parts.initial), parts.initial, motions, times.front(), times,
                                     TrajectoryOptions{});
-    parts.terminating = terminating_cap<D>(parts.sweep, meshed_alike<D>(parts.initial, parts.sweep), ids);
+    parts.terminating =
+        terminating_cap<D>(parts.sweep.boundary, meshed_alike<D>(parts.initial, parts.sweep), ids);
     return parts;
 }
 

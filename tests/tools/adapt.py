@@ -2,6 +2,7 @@
 """Caps that are moved and changed locally: filled, resumed, the same whatever the threads; tracks begin and end once."""
 
 import json
+import math
 import struct
 
 import harness
@@ -29,6 +30,87 @@ formats = ["vtu"]
 [output]
 formats = ["vtu"]
 """
+
+# Radius (1 + a t) (1 - a / (1 + a) t): from 1 to 4 and back.
+SPHERE = """
+dimension = {dimension}
+[initial]
+{bodies}
+box = {{ min = {low}, max = {high}, size = {size}, patch = "walls" }}
+[time]
+slabs = {slabs}
+[motion.body]
+kind = "sequence"
+steps = [ {{ kind = "expansion", centre = {centre}, rate = 12.928203230275509 }},
+          {{ kind = "expansion", centre = {centre}, rate = -0.928203230275509 }} ]
+[project.body]
+surface = "{surface}"
+centre = {centre}
+radius = 1
+[cap]
+reuse = "adapt"
+[adapt]
+boundary = true
+[fill]
+formats = ["getfem"]
+[output]
+formats = ["vtu"]
+"""
+NEEDLE = """
+dimension = 3
+[initial]
+surfaces = [ {{ file = "{root}/examples/sphere.off", patch = "body" }} ]
+box = {{ min = [-6, -6, -6], max = [6, 6, 6], size = 1.5, patch = "walls" }}
+[time]
+slabs = 5
+[motion.body]
+kind = "velocity"
+formula = [ "1.3862943611198906 * x", "-0.6931471805599453 * y", "-0.6931471805599453 * z" ]
+[side]
+split = "A"
+[cap]
+reuse = "adapt"
+[adapt.body]
+[fill]
+formats = ["mfem"]
+[output]
+formats = ["vtu"]
+"""
+PISTON = """
+dimension = 3
+[initial]
+mesh = "{root}/examples/piston.msh"
+[time]
+slabs = 6
+{motions}
+[side]
+split = "A"
+[cap]
+reuse = "adapt"
+[adapt]
+boundary = true
+[fill]
+formats = ["mfem"]
+[output]
+formats = ["vtu"]
+"""
+
+
+def circle(case):
+    turn = [2 * math.pi * k / 24 for k in range(24)]
+    (case.dir / "circle.dat").write_text("".join(f"{math.cos(a)!r} {math.sin(a)!r}\n" for a in turn))
+    return SPHERE.format(dimension=2, bodies='curves = [ { file = "circle.dat", patch = "body" } ]', low="[-6, -6]",
+                         high="[6, 6]", size=1, slabs=20, centre="[0, 0]", surface="circle")
+
+
+def sphere(slabs):
+    body = f'surfaces = [ {{ file = "{harness.ROOT}/examples/sphere.off", patch = "body" }} ]'
+    return SPHERE.format(dimension=3, bodies=body, low="[-6, -6, -6]", high="[6, 6, 6]", size=1.5, slabs=slabs,
+                         centre="[0, 0, 0]", surface="sphere").replace("[adapt]", '[side]\nsplit = "A"\n[adapt]')
+
+
+def radius(t):
+    return (1 + 12.928203230275509 * t) * (1 - 0.928203230275509 * t)
 
 
 class Adapted(ProgramTest):
@@ -140,6 +222,94 @@ class Adapted(ProgramTest):
         self.assertEqual(slab["layers"]["number"], 2 ** slab["adapt"]["halvings"])
         self.assertIn(f"slab 0 has {slab['layers']['number']} layers", result.err)
         self.sound(slab, 5)
+
+    def sections(self, out, slab, times):
+        result = slabhull("slice", out / f"slab_{slab:04}.vtu", "--times", ",".join(map(repr, times)), "--out",
+                          self.dir / "cut.pvd", "--json")
+        self.assertEqual(result.code, 0, result.err)
+        return json.loads(result.out)["sections"]
+
+    def on_boundary(self, report):
+        return sum(slab["adapt"]["on_boundary"] for slab in report["slabs"])
+
+    def test_a_circle_grows_fourfold_and_back_with_edges_of_one_length(self):
+        out, report = self.build(self.case(circle(self)))
+        self.assertGreater(self.on_boundary(report), 100)
+        for slab in report["slabs"]:
+            self.sound(slab, 8)
+            self.assertGreater(slab["adapt"]["boundary_edge_length_ratio"][0], 0.6)
+            self.assertLess(slab["adapt"]["boundary_edge_length_ratio"][1], 1.6)
+        self.checked(out, 9, "getfem")
+        for number in (0, 5, 9, 14, 19):
+            self.check(out / f"slab_{number:04}.vtu")
+            times = [(number + part) / 20 for part in (0.1, 0.3, 0.5, 0.7, 0.9)]
+            for time, section in zip(times, self.sections(out, number, times)):
+                length = section["patches"][0]["measure"]
+                self.assertLess(abs(length / (2 * math.pi * radius(time)) - 1), 0.02)
+
+    def test_a_sphere_grows_and_every_slab_is_filled(self):
+        out, report = self.build(self.case(sphere(8).replace("slabs = 8", "slabs = 8\nend = 0.1")))
+        self.assertGreater(self.on_boundary(report), 50)
+        for slab in report["slabs"]:
+            self.sound(slab, 5)
+            self.assertLess(slab["adapt"]["boundary_edge_length_ratio"][1], 1.9)
+        self.check(out / "slab_0007.vtu")
+        self.checked(out, 7, "getfem")
+        facets = [self.sections(out, number, [time])[0]["patches"][0] for number, time in ((0, 0.001), (7, 0.099))]
+        self.assertGreater(facets[1]["facets"], 2 * facets[0]["facets"])
+        self.assertLess(abs(facets[1]["measure"] / (4 * math.pi * radius(0.099) ** 2) - 1), 0.04)
+
+    def test_a_slab_whose_boundary_changes_is_filled_as_it_is_built_and_the_message_says_so(self):
+        out, _ = self.build(self.case(circle(self).replace("slabs = 20", "slabs = 20\nend = 0.1")))
+        changed = [slab for slab in range(20) if (out / f"slab_{slab:04}.vtu").stat().st_size and
+                   slabhull("fill", out / f"slab_{slab:04}.vtu", self.dir / "fill.vtu").code != 0]
+        self.assertNotEqual(changed, [])
+        result = slabhull("fill", out / f"slab_{changed[0]:04}.vtu", self.dir / "again.vtu")
+        self.assertEqual(result.code, 4, result.err)
+        self.assertIn("[fill]", result.err)
+        self.assertFalse((self.dir / "again.vtu").exists())
+
+    def test_a_run_on_a_changing_boundary_is_resumed_and_does_not_depend_on_threads(self):
+        whole = self.case(circle(self))
+        first = self.case(circle(self).replace("slabs = 20", "slabs = 10\nend = 0.5"), "first.toml")
+        out, _ = self.build(whole)
+        self.build(first, "--threads", "1", out="resumed")
+        self.build(whole, "--resume", "--threads", "1", out="resumed")
+        for name in [f"slab_{slab:04}.vtu" for slab in range(20)] + ["cap_0020.vtu", "fill_0019.getfem"]:
+            self.assertEqual((out / name).read_bytes(), (self.dir / "resumed" / name).read_bytes(), name)
+
+    def test_a_sphere_becomes_a_needle(self):
+        out, report = self.build(self.case(NEEDLE.format(root=harness.ROOT)))
+        self.assertGreater(self.on_boundary(report), 50)
+        for slab in report["slabs"]:
+            self.sound(slab, 5)
+        self.checked(out, 4, "mfem")
+        self.check(out / "slab_0004.vtu")
+
+    def test_the_wall_of_a_piston_is_adapted_over_its_stroke(self):
+        velocity = '"0", "0", "3.141592653589793 * sin(2 * 3.141592653589793 * t) * z / (1 + sin(3.141592653589793 * t)^2)"'
+        motions = "".join(f'[motion.{patch}]\nkind = "velocity"\nformula = [ {velocity} ]\n' for patch in ("piston", "wall"))
+        out, report = self.build(self.case(PISTON.format(root=harness.ROOT, motions=motions)))
+        self.assertGreater(self.on_boundary(report), 20)
+        for slab in report["slabs"]:
+            self.sound(slab, 5)
+        for number in (1, 4):
+            self.check(out / f"slab_{number:04}.vtu")
+        lids = self.sections(out, 2, [0.5])[0]["patches"]
+        self.assertEqual(len(lids), 3)
+
+    def test_patches_are_kept_as_they_are_or_given_a_size(self):
+        text = circle(self).replace("slabs = 20", "slabs = 20\nend = 0.2")
+        _, fixed = self.build(self.case(text.replace("boundary = true", "[adapt.body]\nfixed = true")), out="fixed")
+        self.assertEqual(self.on_boundary(fixed), 0)
+        _, fine = self.build(self.case(text.replace("boundary = true", "[adapt.body]\nsize = 0.1")), out="fine")
+        _, plain = self.build(self.case(text), out="plain")
+        self.assertGreater(self.on_boundary(fine), self.on_boundary(plain))
+        self.refused(self.case(text.replace("boundary = true", "[adapt.bodi]\nsize = 0.15")), 2, "bodi", "body")
+        self.refused(self.case(text.replace("boundary = true", "[adapt.body]\nsizes = 0.15")), 2, "sizes")
+        self.refused(self.case(text.replace("boundary = true", "[adapt.body]\nsize = 0")), 2, "size")
+        self.refused(self.case(text.replace("boundary = true", "feature_angle = 120")), 2, "feature_angle")
+        self.refused(self.case(text.replace("boundary = true", "distance = -1")), 2, "distance")
 
 
 if __name__ == "__main__":

@@ -69,11 +69,14 @@ std::size_t ridges_of(const HalfedgeMesh& mesh) {
 } // namespace
 
 template<int D>
-Boundary<D>::Boundary(Surface<D> surface, Array<TrackId> tracks) {
+Boundary<D>::Boundary(Surface<D> surface, Array<TrackId> tracks, Array<double> spacing) {
     if (tracks.empty()) {
         tracks.assign(surface.points.size(), no_track);
     }
     require_as_many(tracks.size(), surface.points.size(), "tracks", "vertices");
+    if (!spacing.empty()) {
+        require_as_many(spacing.size(), surface.points.size(), "spacings", "vertices");
+    }
     if (surface.patch.empty()) {
         surface.patch.assign(surface.facets.size(), PatchNumber{0});
     }
@@ -81,6 +84,7 @@ Boundary<D>::Boundary(Surface<D> surface, Array<TrackId> tracks) {
     auto made = std::make_shared<Data>();
     made->surface = std::move(surface);
     made->tracks = std::move(tracks);
+    made->spacing = std::move(spacing);
     connect(*made);
     find_components(*made);
     data_ = std::move(made);

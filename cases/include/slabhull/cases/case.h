@@ -6,6 +6,7 @@
 #include "slabhull/geometry/trajectory.h"
 #include "slabhull/io/formats.h"
 #include "slabhull/io/space_time_files.h"
+#include "slabhull/slab/adapt.h"
 #include "slabhull/slab/cap_reuse.h"
 #include "slabhull/slab/fill.h"
 #include "slabhull/topology/prism_split.h"
@@ -154,6 +155,10 @@ struct Case {
 
     double adapt_size = std::numeric_limits<double>::infinity(); ///< bound on target lengths inside
     double adapt_angle = 10;                                     ///< degrees aimed at
+    bool adapt_boundary = false; ///< whether the boundary's connectivity is adapted, too
+    double adapt_feature_angle = 40;
+    double adapt_distance = 0.25;
+    std::map<std::string, PatchAdaptation> adapt_patches; ///< by name
 
     bool check_embedding = true;  ///< hulls must be proven not to cross themselves
     std::optional<FillSpec> fill; ///< needs CapReuse::move or adapt, unless by TetGen

@@ -6,12 +6,21 @@
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <optional>
 #include <vector>
 
 namespace slabhull {
+
+/// What the boundary's edges in a patch are held to.
+struct PatchAdaptation {
+    std::optional<double> size; ///< target length
+    bool fixed = false;         ///< its connectivity stays
+};
 
 /// What a cap that moves is held to.
 struct AdaptOptions {
@@ -23,12 +32,20 @@ struct AdaptOptions {
     /// Edges inside are kept within these multiples of their target length.
     double shortest = 0.7; // with 0.6, splits outweigh collapses, and cells become more for hundreds of slabs
     double longest = 1.6;
+
+    /// Whether edges of the boundary are kept to their target lengths, too. That of a vertex is the mean
+    /// length of its edges at the start of the march, or the smallest size given for its patches.
+    bool boundary = false;
+    double feature_angle = 40; ///< degrees: sharper edges of the boundary are kept, and facets turn no more
+    double distance = 0.25;    ///< that operations may part the boundary from what it was, in target lengths
+    std::map<PatchNumber, PatchAdaptation> patches;
 };
 
 enum class OperationKind : std::uint8_t {
     split,    ///< of an edge, by a new vertex
     collapse, ///< of an edge, which ends a vertex
     flip,     ///< of a facet, or of an edge with all its cells: no vertex begins or ends
+    shift,    ///< of a vertex along the boundary: its track ends, and one begins beside it
 };
 
 /// For files: size (0: none), growth, angle, shortest, longest.
@@ -44,6 +61,7 @@ struct Operation {
     std::size_t removed_end = 0; ///< in AdaptLog::removed, behind the operation before
     std::size_t added_end = 0;   ///< in AdaptLog::added
     Point<D + 1> apex;           ///< strictly between the layer's levels
+    bool on_boundary = false;    ///< it changes the boundary, too
 };
 
 /// All that happened to the cap between the levels of a slab; what a filling needs. A column is a vertex of
@@ -73,12 +91,17 @@ struct AdaptReport {
     std::size_t splits = 0;
     std::size_t collapses = 0;
     std::size_t flips = 0;
-    std::size_t moved = 0;     ///< vertices displaced to improve their cells
-    int halvings = 0;          ///< how often all layers were halved, since cells would have been inside out
-    std::size_t refused = 0;   ///< operations that would help, but cannot be coned with positive volumes
-    double smallest_angle = 0; ///< degrees, at the end
-    double shortest_ratio = 0; ///< least length of an inner edge over its target, at the end
-    double longest_ratio = 0;  ///< the largest
+    std::size_t shifts = 0;
+    std::size_t on_boundary = 0; ///< how many of these operations changed the boundary
+    std::size_t moved = 0;       ///< vertices displaced to improve their cells
+    int halvings = 0;            ///< how often all layers were halved, since cells would have been inside out
+    std::size_t refused = 0;     ///< operations that would help, but cannot be coned with positive volumes
+    double smallest_angle = 0;   ///< degrees, at the end
+    double shortest_ratio = 0;   ///< least length of an inner edge over its target, at the end
+    double longest_ratio = 0;    ///< the largest
+    /// The same of the boundary's edges, if these are kept to their targets ...
+    std::optional<std::array<double, 2>> boundary_ratios;
+    std::optional<std::array<double, 2>> boundary_ratios_before; ///< ... and at the slab's start
 };
 
 /// How a slab's cap was adapted, and the log of it.

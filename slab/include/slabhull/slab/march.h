@@ -17,8 +17,8 @@ struct MarchState {
     double time = 0;    ///< time of `cap`
     int slab = 0;       ///< number of the next slab
     IdCounter ids;
-    /// The boundary of all caps of the march, with its places at the motion's start, which series of
-    /// displacements and stretching patches refer to. At present it bounds `cap`.
+    /// The boundary of `cap`, with its places at the motion's start, which series of displacements and
+    /// stretching patches refer to. Its connectivity stays, unless AdaptOptions::boundary is set.
     Boundary<D> boundary;
 };
 

@@ -40,6 +40,7 @@ struct Slab {
     std::optional<double> moved_angle;        ///< ... its smallest angle (degrees) after moving, if tried
     int cap_blocks = 1;                       ///< number of blocks if the cap was meshed
     std::optional<Adaptation<D>> adapted;     ///< what was done to the cap with CapReuse::adapt
+    std::optional<Boundary<D>> boundary;      ///< of the terminating cap, if its connectivity was changed
     LayerFit layers;                          ///< how well they follow the motion ...
     std::optional<std::size_t> layers_enough; ///< ... and a sufficient number if too few were given
     IdCounter next_ids;                       ///< the next slab's new ids start here

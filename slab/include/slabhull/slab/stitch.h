@@ -16,9 +16,9 @@ template<int D>
 struct CapMesh;
 
 /// A terminating cap as a spatial mesh: new ids for its points, the tracks and patches of the boundary.
-/// `mesh` has the sweep's vertices first, at their last positions.
+/// `mesh` has the boundary's vertices first.
 template<int D>
-SpatialMesh<D> terminating_cap(const Sweep<D>& sweep, CapMesh<D>&& mesh, IdCounter& ids);
+SpatialMesh<D> terminating_cap(const Boundary<D>& boundary, CapMesh<D>&& mesh, IdCounter& ids);
 
 /// How the side is split into simplices.
 struct SideOptions {

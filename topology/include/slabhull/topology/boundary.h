@@ -45,10 +45,10 @@ public:
     Boundary() = default;
 
     /// Opens a surface at its present places. `tracks` are of its vertices, by default no_track for all;
-    /// facets without patches have patch 0.
+    /// facets without patches have patch 0. `spacing`: see spacing().
     /// Throws GeometryError naming the facets, with their patches, when the surface is no closed oriented
-    /// manifold, and UsageError for tracks or patches of another number. Cost: near-linear.
-    explicit Boundary(Surface<D> surface, Array<TrackId> tracks = {});
+    /// manifold, and UsageError for tracks, patches or spacings of another number. Cost: near-linear.
+    explicit Boundary(Surface<D> surface, Array<TrackId> tracks = {}, Array<double> spacing = {});
 
     // --- facets and vertices, in the order of the surface that was opened
 
@@ -90,6 +90,9 @@ public:
     std::span<const TrackId> tracks() const { return data().tracks; }           ///< of the vertices
     std::span<const PatchNumber> patch() const { return data().surface.patch; } ///< of the facets
     const PatchList& patches() const { return data().surface.patches; }
+    /// Length that edges at each vertex are meant to have, of a boundary whose connectivity was adapted; else
+    /// empty.
+    std::span<const double> spacing() const { return data().spacing; }
     /// The vertices of some patches, ascending.
     std::vector<Index> vertices_of(const std::vector<PatchNumber>& patches) const;
     /// Whether a ridge lies between facets of different patches.
@@ -116,6 +119,7 @@ private:
     struct Data {
         Surface<D> surface; ///< at the start
         Array<TrackId> tracks;
+        Array<double> spacing;
         std::unique_ptr<const Mesh> mesh;
         Array<Neighbors<D - 1>> neighbors;
         Array<std::array<std::uint8_t, D>> twin_corner;

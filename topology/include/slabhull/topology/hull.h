@@ -54,6 +54,11 @@ struct Hull {
     /// filled (slab/adapt.h: settings_as_numbers()), and the target length at each swept vertex; else empty.
     std::vector<double> adapt_settings;
     std::vector<double> adapt_spacing;
+
+    /// Whether the boundary's connectivity changes within the slab, so that tracks on the side may begin and
+    /// end there.
+    bool boundary_changes() const { return !side_parts.empty(); }
+
     std::size_t terminating_begin() const { return initial_cells + side_cells; }
     std::size_t terminating_points_begin() const { return initial_points + side_points; }
 
