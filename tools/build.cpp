@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.h"
 
+#include "slabhull/cases/plan.h"
 #include "slabhull/cases/run.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/stopwatch.h"
@@ -20,6 +21,7 @@ struct BuildOptions {
     int threads = 0;
     bool quiet = false;
     bool resume = false;
+    bool dry_run = false;
 };
 
 Listener listener_for(const BuildOptions& options) {
@@ -34,11 +36,31 @@ Listener listener_for(const BuildOptions& options) {
     return listener;
 }
 
+/// Says what the run would do.
+void print_plan(const Case& the_case, const CasePlan& plan) {
+    fmt::print("{}: {}D+t, {} facets on the boundary\n", the_case.title, the_case.dimension, plan.facets);
+    for (const PatchPlan& patch : plan.patches) {
+        fmt::print("  patch {}: {} facets, {}\n", patch.name, patch.facets,
+                   patch.moves ? "moves" : "stands still");
+    }
+    for (std::size_t k = 0; k < plan.slabs.size(); ++k) {
+        const SlabPlan& slab = plan.slabs[k];
+        fmt::print("  slab {} from t = {:.6g} to {:.6g}: {} layers, {:.0f} simplices on the side\n", k,
+                   slab.begin, slab.end, slab.layers, slab.side_simplices);
+    }
+    fmt::print("  caps of about {:.2g} simplices; about {:.2g} GB of memory and {:.2g} s\n",
+               plan.cap_simplices, 1e-9 * plan.bytes, plan.seconds);
+}
+
 int build(const BuildOptions& options) {
     set_thread_count(options.threads);
     Case the_case = read_case(options.case_file);
     if (!options.directory.empty()) {
         the_case.directory = options.directory;
+    }
+    if (options.dry_run) {
+        print_plan(the_case, plan_case(the_case, listener_for(options)));
+        return 0;
     }
     const Stopwatch watch;
     const RunResult result = run_case(the_case, listener_for(options), {options.resume});
@@ -67,6 +89,10 @@ void add_build(CLI::App& program, int& exit_code) {
     command->add_flag(
         "--resume", options->resume,
         "Go on after the last slab that an interrupted run finished, as if nothing had happened");
+    command->add_flag(
+        "--dry-run", options->dry_run,
+        "Read everything and mesh nothing: say what the run would do, with layers, simplices, memory "
+        "and time");
     command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
     command->footer("Example: slabhull build examples/ellipsoid.toml --out out/ellipsoid");
     command->callback([options, &exit_code] { exit_code = build(*options); });

@@ -11,6 +11,7 @@ void add_check(CLI::App& program, int& exit_code);
 void add_convert(CLI::App& program, int& exit_code);
 void add_fill(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
+void add_new(CLI::App& program, int& exit_code);
 void add_slice(CLI::App& program, int& exit_code);
 void add_study(CLI::App& program, int& exit_code);
 void add_view(CLI::App& program, int& exit_code);

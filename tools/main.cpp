@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
     slabhull::tools::add_convert(program, exit_code);
     slabhull::tools::add_fill(program, exit_code);
     slabhull::tools::add_info(program, exit_code);
+    slabhull::tools::add_new(program, exit_code);
     slabhull::tools::add_slice(program, exit_code);
     slabhull::tools::add_study(program, exit_code);
     slabhull::tools::add_view(program, exit_code);

@@ -421,7 +421,7 @@ private:
     void read_output() {
         KeyTable table = root_.optional_table("output");
         const auto directory = table.optional_text("directory");
-        case_.directory = directory_ / directory.value_or(case_.directory.string());
+        case_.directory = (directory_ / directory.value_or(case_.directory.string())).lexically_normal();
         if (table.has("formats")) {
             case_.formats = read_formats(table);
         }

@@ -165,7 +165,11 @@ private:
         }
         const BoundaryOperations<D> on_boundary = adapted_boundary_->operations(layer, mesh_, options_);
         const auto cavities = choose_operations<D>(mesh_, &on_boundary, times, options_, result_.report);
-        adapted_boundary_->change(layer, cavities, mesh_, result_.columns);
+        try {
+            adapted_boundary_->change(layer, cavities, mesh_, result_.columns);
+        } catch (const GeometryError& error) {
+            throw InvertedCap{error.what(), error.entities}; // more layers may help
+        }
         mesh_.apply(cavities, result_.columns, result_.log);
         mesh_.boundary = adapted_boundary_->vertices_in(mesh_);
     }

@@ -25,7 +25,8 @@ struct AdaptedCap {
     std::optional<LayeredSweep<D>> side; ///< of a boundary whose connectivity was changed
 };
 
-/// A cap has cells that its motion turns inside out within a layer.
+/// A cap has cells that its motion turns inside out within a layer, or its boundary crosses itself when it is
+/// changed.
 class InvertedCap : public GeometryError {
 public:
     using GeometryError::GeometryError;

@@ -264,13 +264,21 @@ private:
 
     /// The more urgent an operation is, the longer and the shorter the edges may be that it makes.
     bool keeps_boundary_lengths(const Cavity<D>& cavity) const {
-        if (cavity.kind == OperationKind::shift) {
+        double shortest = 0;
+        double longest = std::numeric_limits<double>::infinity();
+        switch (cavity.kind) {
+        case OperationKind::split:
+            shortest = least_after_split(boundary_->length_ratio(cavity.edge[0], cavity.edge[1]));
+            break;
+        case OperationKind::collapse:
+            longest = most_after_collapse(boundary_->length_ratio(cavity.edge[0], cavity.edge[1]));
+            break;
+        case OperationKind::flip:
+            longest = options_.longest;
+            break;
+        case OperationKind::shift:
             return true; // it is made only if it improves them
         }
-        const double ratio =
-            cavity.kind == OperationKind::flip ? 1 : boundary_->length_ratio(cavity.edge[0], cavity.edge[1]);
-        const double shortest = cavity.kind == OperationKind::split ? least_after_split(ratio) : 0;
-        const double longest = cavity.kind == OperationKind::split ? ratio : most_after_collapse(ratio);
         for (const Facet<D>& facet : cavity.side.added) {
             for (std::size_t i = 0; i < D; ++i) {
                 for (std::size_t j = 0; j < i; ++j) {
