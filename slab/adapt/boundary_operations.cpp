@@ -263,7 +263,8 @@ bool BoundaryOperations<D>::collapse(Index first, Index second, Cavity<D>& cavit
     std::vector<Index> common;
     std::set_intersection(around.begin(), around.end(), around_kept.begin(), around_kept.end(),
                           std::back_inserter(common));
-    if (common.size() != 2 * (D - 2)) { // the link condition
+    constexpr std::size_t allowed = D == 3 ? 2 : 0; // the link condition
+    if (common.size() != allowed) {
         return false;
     }
     std::vector<Facet<D>> added;

@@ -1,0 +1,47 @@
+# Debian packages by CPack: the program, and the library for those who build on it. scripts/packages.sh makes and tries them.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The Slabhull authors <maintainers@slabhull.invalid>")
+set(CPACK_PACKAGE_VENDOR "Slabhull")
+set(CPACK_PACKAGE_HOMEPAGE_URL "https://github.com/slabhull/slabhull")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
+    WORLD_READ WORLD_EXECUTE)
+set(CPACK_COMPONENTS_ALL program dev)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME slabhull)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "space-time hull meshes of moving domains")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+    "Builds the boundaries of space-time slabs of a moving domain, closed,
+conforming and checked, and fills them with simplices, from a mesh or
+surfaces and a motion.")
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libslabhull-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libopenmesh-dev, libtet1.5-dev, libboost-graph-dev, libcgal-dev, libeigen3-dev, \
+libtomlplusplus-dev, libfmt-dev, libpugixml-dev, zlib1g-dev, liblz4-dev, libmuparser-dev")
+set(CPACK_COMPONENT_DEV_DESCRIPTION
+    "Static libraries and headers of Slabhull, found by find_package(Slabhull)
+of CMake and by pkg-config: marches of a solver, checks, sections and
+fillings.")
+
+# What Debian wants with each package.
+foreach(package slabhull libslabhull-dev)
+    string(REPLACE "libslabhull-dev" dev component ${package})
+    string(REPLACE slabhull program component ${component})
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/${package}/changelog CONTENT
+        "slabhull (@PROJECT_VERSION@) unstable; urgency=medium\n\n  * See CHANGELOG.md.\n\n -- @CPACK_PACKAGE_CONTACT@  Sun, 29 Nov 2026 12:00:00 +0000\n" @ONLY)
+    execute_process(COMMAND gzip -9nkf ${PROJECT_BINARY_DIR}/debian/${package}/changelog)
+    file(READ ${PROJECT_SOURCE_DIR}/LICENSE license)
+    string(REGEX REPLACE "\n\n" "\n.\n" license "${license}")
+    string(REGEX REPLACE "\n([^\n])" "\n \\1" license "${license}")
+    file(WRITE ${PROJECT_BINARY_DIR}/debian/${package}/copyright
+        "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\nUpstream-Name: Slabhull\n\nFiles: *\nCopyright: 2026, the Slabhull authors\nLicense: BSD-3-Clause\n ${license}")
+    install(FILES ${PROJECT_BINARY_DIR}/debian/${package}/changelog.gz ${PROJECT_BINARY_DIR}/debian/${package}/copyright
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component} EXCLUDE_FROM_ALL)
+endforeach()
+include(CPack)
