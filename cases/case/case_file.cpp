@@ -493,6 +493,14 @@ Case read_case(const std::filesystem::path& path) {
     return the_case;
 }
 
+Case parse_case(const std::string& text, const std::filesystem::path& path) {
+    Case the_case = CaseReader{KeyTable::parse(text, path.string()), path.parent_path()}.run();
+    io::Checksum checksum;
+    checksum.add(text.data(), text.size());
+    the_case.checksum = checksum.value();
+    return the_case;
+}
+
 double Case::slab_begin(int slab) const {
     return slab == slabs ? end : start + (end - start) * slab / static_cast<double>(slabs);
 }

@@ -59,14 +59,17 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 KeyTable::KeyTable(std::shared_ptr<Node> node) : node_{std::move(node)} {}
 
 KeyTable KeyTable::parse_file(const std::filesystem::path& path) {
-    const std::string text = read_all(path);
+    return parse(read_all(path), path.string());
+}
+
+KeyTable KeyTable::parse(const std::string& text, const std::string& name) {
     try {
         auto root = std::make_shared<const toml::table>(toml::parse(text));
         const toml::table* table = root.get();
-        return KeyTable{std::make_shared<Node>(Node{std::move(root), table, path.string(), ""})};
+        return KeyTable{std::make_shared<Node>(Node{std::move(root), table, name, ""})};
     } catch (const toml::parse_error& error) {
-        throw UsageError(fmt::format("{}: line {}: {}", path.string(), error.source().begin.line,
-                                     readable(error.description())));
+        throw UsageError(
+            fmt::format("{}: line {}: {}", name, error.source().begin.line, readable(error.description())));
     }
 }
 

@@ -16,6 +16,8 @@ class KeyTable {
 public:
     /// Throws InputError when the file cannot be read, UsageError when it is not TOML.
     static KeyTable parse_file(const std::filesystem::path& path);
+    /// The same of a text; `name` is what messages call it.
+    static KeyTable parse(const std::string& text, const std::string& name);
 
     bool has(const std::string& key) const;
     std::vector<std::string> keys() const;

@@ -67,6 +67,11 @@ public:
         return std::any_of(steps_.begin(), steps_.end(), [](const auto& step) { return step->moves(); });
     }
 
+    bool in_one_call() const override {
+        return std::any_of(steps_.begin(), steps_.end(),
+                           [](const auto& step) { return step->in_one_call(); });
+    }
+
     std::vector<double> row_times() const override {
         std::vector<double> all;
         for (const auto& step : steps_) {

@@ -204,7 +204,7 @@ void advance_exactly(const Motion<D>& motion, std::span<Point<D>> x, double from
 
 template<int D>
 void advance_by_steps(const Motion<D>& motion, std::span<Point<D>> x, const Course& course) {
-    for_each_chunk(x.size(), [&](std::size_t begin, std::size_t end) {
+    const auto move_points = [&](std::size_t begin, std::size_t end) {
         const auto chunk = x.subspan(begin, end - begin);
         State state(chunk.size() * D);
         std::copy(chunk.begin(), chunk.end(), as_points<D>(state).begin());
@@ -212,7 +212,12 @@ void advance_by_steps(const Motion<D>& motion, std::span<Point<D>> x, const Cour
         const auto moved = as_points<D>(state);
         std::copy(moved.begin(), moved.end(), chunk.begin());
         require_finite_points<D>(chunk, begin, course.to);
-    });
+    };
+    if (motion.in_one_call()) {
+        move_points(0, x.size());
+    } else {
+        for_each_chunk(x.size(), move_points);
+    }
 }
 
 } // namespace

@@ -83,6 +83,11 @@ bool is_field(const auto& group) {
     return group.moving != nullptr && group.moving->motion != nullptr && group.moving->motion->moves();
 }
 
+/// Vertices of a group per call of its motion.
+std::size_t piece_of(const auto& group) {
+    return group.moving->motion->in_one_call() ? std::max<std::size_t>(1, group.vertices.size()) : grain;
+}
+
 bool is_nodal(const auto& group) {
     return group.moving != nullptr && group.moving->motion == nullptr && group.moving->nodal != nullptr;
 }
@@ -210,7 +215,7 @@ typename LayerMeter<D>::Sample LayerMeter<D>::sample_at(double time, Array<Point
         const std::vector<Index>& vertices = groups[g].vertices;
         std::vector<Point<D>>& velocities = sample.velocities[g];
         velocities.resize(vertices.size());
-        parallel_for(vertices.size(), grain, [&](std::size_t begin, std::size_t end) {
+        parallel_for(vertices.size(), piece_of(groups[g]), [&](std::size_t begin, std::size_t end) {
             std::vector<Point<D>> x;
             for (std::size_t i = begin; i < end; ++i) {
                 x.push_back(sample.places[vertices[i]]);
@@ -288,7 +293,7 @@ void LayerMeter<D>::measure_field(const Layer& layer, const Group& group, std::s
     const double h = after.time - before.time;
     const double probe = before.time + probe_at * h;
     std::vector<Worst> found(group.vertices.size() / grain + 1);
-    parallel_for(group.vertices.size(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(group.vertices.size(), piece_of(group), [&](std::size_t begin, std::size_t end) {
         std::vector<Point<D>> x;
         std::vector<Point<D>> cubic_velocity;
         for (std::size_t i = begin; i < end; ++i) {

@@ -187,6 +187,8 @@ struct Case {
 /// Reads a case file. Paths in it are taken relative to it.
 /// Throws InputError when it cannot be read, UsageError naming key, line and what was expected otherwise.
 Case read_case(const std::filesystem::path& path);
+/// The same of a text, as if it stood in the file `path`, which messages name and which need not exist.
+Case parse_case(const std::string& text, const std::filesystem::path& path);
 
 /// One of the paper's six experiments at a level (a row of its tables), ready to run.
 /// Throws UsageError naming the experiments or the levels that there are.

@@ -36,6 +36,11 @@ public:
     /// Times of a table's rows, ascending. Paths are smooth between two of them; a caller that samples a path
     /// must not step over them. Empty if the motion is not a table.
     virtual std::vector<double> row_times() const { return {}; }
+
+    /// Whether velocity() wants all points in one call, since calls are expensive (an interpreter's
+    /// function). Then they are not divided into chunks for several threads, and dopri5 has one substep for
+    /// all of them.
+    virtual bool in_one_call() const { return false; }
 };
 
 template<int D>
