@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of the module that no other part needs.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace slabhull::python {
+
+void bind_check(pybind11::module_& module);
+
+} // namespace slabhull::python
