@@ -6,6 +6,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/edit/soup_edit.h"
 #include "slabhull/edit/soup_numbers.h"
+#include "slabhull/edit/soup_output.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,31 +91,6 @@ void require_dimension(const ConvertCommand& command, const io::Format& format, 
                                      simplices_called(dimension),
                                      surface_would_do ? "; --extract-boundary gives their surface" : "")};
     }
-}
-
-/// Formats of named groups, and those that keep no arrays, get groups. Where groups lose their names, only
-/// those of hulls, which tell the regions, become arrays.
-void settle_groups(const io::Format& format, io::Soup& soup) {
-    const bool arrays_stay =
-        io::stores(format, soup, io::ArrayAssociation::cells, {"patch", 1, IntegerList{}});
-    const PatchList& groups = soup.groups[static_cast<std::size_t>(soup.top_dimension())];
-    if (format.features.groups && (format.features.group_names || !arrays_stay)) {
-        arrays_to_groups(soup);
-    } else if (!format.features.groups || patch_number(groups, "terminating") != 0) {
-        groups_to_arrays(soup);
-    }
-}
-
-/// Hulls keep the types that docs/formats.md gives their arrays.
-io::MeshColumns columns_to_write(const io::Soup& soup) {
-    io::MeshColumns mesh = io::columns_of(soup);
-    for (io::DataColumn& column : mesh.cell_data) {
-        if (column.type == io::Scalar::int64 &&
-            (column.name == "region" || column.name == "patch" || column.name == "layer")) {
-            column.type = io::Scalar::int32;
-        }
-    }
-    return mesh;
 }
 
 /// OUT's name with the part's before its extension; what is awkward in a file's name becomes '_'.
