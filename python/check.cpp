@@ -4,14 +4,21 @@
 
 #include "python/arrays.h"
 #include "python/errors.h"
+#include "python/filling.h"
 #include "python/hull.h"
 #include "python/long_call.h"
 
+#include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/report.h"
+#include "slabhull/io/files.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/check_embedding.h"
+#include "slabhull/slab/check_filling.h"
 
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
 
 #include <limits>
 #include <optional>
@@ -118,10 +125,49 @@ py::tuple check_mesh_arrays(const py::object& points, const py::object& cells) {
     });
 }
 
+/// A filling, compared with its hull if that is given.
+py::tuple check_shared_filling(const SharedFilling& filling, const SharedHull* hull) {
+    return std::visit(
+        [&]<int D>(const std::shared_ptr<const Filling<D>>& shared) {
+            const Hull<D>* compared =
+                hull != nullptr ? of_dimension<D>(hull->any(), "the hull").get() : nullptr;
+            const FillingReport report =
+                long_call([&] { return check_filling<D>(columns_of(*shared), compared); });
+            return told(report_as_json(report), report);
+        },
+        filling.filling);
+}
+
+/// A hull or a mesh as a file has it, sound or not.
+template<int D>
+py::tuple check_soup(io::Soup& soup, bool hull, bool betti, bool embedding) {
+    if (hull) {
+        const HullCheck check = long_call([&] {
+            const HullArrays<D> arrays = hull_of_soup<D>(soup);
+            return examine<D>(arrays.columns(), betti, embedding);
+        });
+        return check.told();
+    }
+    const MeshReport report = long_call([&] {
+        const MeshArrays<D> mesh = mesh_of_soup<D>(soup);
+        return check_mesh<D>(mesh.points, mesh.cells);
+    });
+    return told(report_as_json(report), report);
+}
+
+py::tuple check_file(const std::filesystem::path& path, bool betti, bool embedding) {
+    io::Soup soup = long_call([&] { return io::read_mesh(path); });
+    const MeshKind kind = kind_of(soup);
+    return kind.dimension == 2 ? check_soup<2>(soup, kind.hull, betti, embedding)
+                               : check_soup<3>(soup, kind.hull, betti, embedding);
+}
+
 } // namespace
 
 void bind_check(py::module_& module) {
     module.def("check_hull", check_shared_hull, py::arg("hull"), py::arg("betti"), py::arg("embedding"));
+    module.def("check_filling", check_shared_filling, py::arg("filling"), py::arg("hull"));
+    module.def("check_file", check_file, py::arg("path"), py::arg("betti"), py::arg("embedding"));
     module.def("check_hull_arrays", check_hull_arrays, py::arg("points"), py::arg("cells"), py::arg("claims"),
                py::arg("betti"), py::arg("embedding"));
     module.def("check_mesh_arrays", check_mesh_arrays, py::arg("points"), py::arg("cells"));

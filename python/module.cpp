@@ -3,8 +3,10 @@
 #include "python/bindings.h"
 #include "python/domain.h"
 #include "python/errors.h"
+#include "python/filling.h"
 #include "python/hull.h"
 #include "python/march.h"
+#include "python/mesh.h"
 #include "python/motions.h"
 
 #include "slabhull/core/parallel.h"
@@ -21,7 +23,12 @@ PYBIND11_MODULE(_slabhull, module) {
     python::bind_domain(module);
     python::bind_motions(module);
     python::bind_march(module);
+    python::bind_filling(module);
+    python::bind_mesh(module);
+    python::bind_sections(module);
     python::bind_check(module);
+    python::bind_case(module);
+    python::bind_hull_files(module);
     module.def("thread_count", slabhull::thread_count, "Threads that parallel loops use.");
     module.def("set_thread_count", slabhull::set_thread_count, pybind11::arg("count"),
                "Sets them for the whole process; 0 means the machine's cores.");
