@@ -193,6 +193,42 @@ TEST_CASE("paths have the same bits for any number of threads") {
     }
 }
 
+namespace {
+
+/// A shear that counts its calls and the points of each.
+struct WholeShear final : Motion<2> {
+    explicit WholeShear(bool whole) : whole_{whole} {}
+    void velocity(std::span<const Point<2>> x, double, std::span<Point<2>> v) const override {
+        sizes.push_back(x.size());
+        std::transform(x.begin(), x.end(), v.begin(), [](const Point<2>& p) { return Point<2>{p[1], 0}; });
+    }
+    std::optional<AffineMap<2>> map(double, double) const override { return std::nullopt; }
+    bool in_one_call() const override { return whole_; }
+
+    mutable std::vector<std::size_t> sizes;
+
+private:
+    bool whole_;
+};
+
+} // namespace
+
+TEST_CASE("a motion may want all points in one call, which changes no bit of the fixed schemes") {
+    set_thread_count(1); // the counts are not for several threads
+    const auto start = random_points<2>(2000, 5);
+    const TrajectoryOptions options{Scheme::rk4, 3, 1e-10};
+    auto in_chunks = start;
+    advance<2>(WholeShear{false}, in_chunks, 0, 1, options);
+    auto at_once = start;
+    const auto whole = std::make_shared<WholeShear>(true);
+    advance<2>(*whole, at_once, 0, 1, options);
+    set_thread_count(0);
+    CHECK(at_once == in_chunks);
+    CHECK(whole->sizes == std::vector<std::size_t>(4 * 3, start.size()));
+    CHECK(sequence<2>({whole, translation<2>({1, 0})}, 0)->in_one_call());
+    CHECK_FALSE(sequence<2>({translation<2>({1, 0})}, 0)->in_one_call());
+}
+
 TEST_CASE("a path that leaves the finite numbers is refused, never followed forever") {
     const auto blow_up = formula_velocity<2>({"x^2", "0"}); // reaches infinity at t = 1
     for (const Scheme scheme : stepping_schemes) {
