@@ -10,6 +10,7 @@
 #include "slabhull/cases/initial.h"
 #include "slabhull/cases/run.h"
 #include "slabhull/cases/settings.h"
+#include "slabhull/core/error.h"
 #include "slabhull/io/files.h"
 
 #include <pybind11/stl.h>
@@ -122,7 +123,11 @@ Case case_from(const py::object& source, const std::filesystem::path& directory)
         const py::object text = py::module_::import("slabhull.toml").attr("as_toml")(source);
         return parse_case(text.cast<std::string>(), directory / "case");
     }
-    return read_case(source.cast<std::filesystem::path>());
+    try {
+        return read_case(source.cast<std::filesystem::path>());
+    } catch (const py::cast_error&) {
+        throw UsageError{"a case is the path of a case file, or a dict with its tables"};
+    }
 }
 
 void bind_case_class(py::module_& module) {

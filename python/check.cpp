@@ -49,8 +49,7 @@ struct HullCheck {
 };
 
 template<int D>
-HullCheck examine(const HullColumns<D>& columns, bool betti, bool embedding) {
-    CheckOptions options;
+HullCheck examine(const HullColumns<D>& columns, bool betti, bool embedding, CheckOptions options = {}) {
     options.betti_cells = betti ? std::numeric_limits<std::size_t>::max() : 0;
     HullCheck check{check_hull<D>(columns, options), std::nullopt};
     if (embedding) {
@@ -138,19 +137,33 @@ py::tuple check_shared_filling(const SharedFilling& filling, const SharedHull* h
         filling.filling);
 }
 
+/// Findings in a file's own numbers. The soup must outlive the options, and keep its tags.
+CheckOptions numbered_as_in(const io::Soup& soup, std::size_t dimension) {
+    CheckOptions options;
+    if (!soup.point_tags.empty()) {
+        options.vertex_number = [&soup](Index v) { return soup.point_tag(v); };
+    }
+    const io::SimplexBlock& block = soup.simplices[dimension];
+    if (!block.tags.empty()) {
+        options.cell_number = [&block](Index c) { return block.tag(c); };
+    }
+    return options;
+}
+
 /// A hull or a mesh as a file has it, sound or not.
 template<int D>
 py::tuple check_soup(io::Soup& soup, bool hull, bool betti, bool embedding) {
+    const CheckOptions options = numbered_as_in(soup, D);
     if (hull) {
         const HullCheck check = long_call([&] {
             const HullArrays<D> arrays = hull_of_soup<D>(soup);
-            return examine<D>(arrays.columns(), betti, embedding);
+            return examine<D>(arrays.columns(), betti, embedding, options);
         });
         return check.told();
     }
     const MeshReport report = long_call([&] {
         const MeshArrays<D> mesh = mesh_of_soup<D>(soup);
-        return check_mesh<D>(mesh.points, mesh.cells);
+        return check_mesh<D>(mesh.points, mesh.cells, options);
     });
     return told(report_as_json(report), report);
 }

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -35,6 +36,18 @@ Function shared_function(const py::object& function) {
 template<int D>
 bool is_finite(const Point<D>& x) {
     return std::all_of(x.begin(), x.end(), [](double part) { return std::isfinite(part); });
+}
+
+/// Whether all are finite. Without a branch in the loop, so that it runs on vectors.
+template<int D>
+bool all_finite(std::span<const Point<D>> x) {
+    bool finite = true;
+    for (const Point<D>& point : x) {
+        for (const double part : point) {
+            finite &= std::abs(part) <= std::numeric_limits<double>::max();
+        }
+    }
+    return finite;
 }
 
 /// A copy for Python, which may keep it.
@@ -72,17 +85,20 @@ public:
             return;
         }
         call(x, t, v);
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            if (!is_finite<D>(v[i])) {
-                throw GeometryError{fmt::format("{} is ({}) at the point ({}) at t = {}", what_,
-                                                fmt::join(v[i], ", "), fmt::join(x[i], ", "), t)};
-            }
+        if (!all_finite<D>(v)) {
+            refuse(x, t, v);
         }
     }
     std::optional<AffineMap<D>> map(double, double) const override { return std::nullopt; }
     bool in_one_call() const override { return true; }
 
 private:
+    [[noreturn]] void refuse(std::span<const Point<D>> x, double t, std::span<const Point<D>> v) const {
+        const auto bad = std::find_if_not(v.begin(), v.end(), is_finite<D>);
+        const Point<D>& place = x[static_cast<std::size_t>(bad - v.begin())];
+        throw GeometryError{fmt::format("{} is ({}) at the point ({}) at t = {}", what_,
+                                        fmt::join(*bad, ", "), fmt::join(place, ", "), t)};
+    }
     void call(std::span<const Point<D>> x, double t, std::span<Point<D>> v) const {
         const py::gil_scoped_acquire lock;
         take<D>((*function_)(copy_of<D>(x), t), what_, v);
@@ -130,7 +146,7 @@ Point<D> point_of(const std::vector<double>& numbers, const char* name) {
     if (numbers.size() != D) {
         throw UsageError{fmt::format("{} must have {} numbers, not {}", name, D, numbers.size())};
     }
-    Point<D> point;
+    Point<D> point{};
     std::copy(numbers.begin(), numbers.end(), point.begin());
     return point;
 }

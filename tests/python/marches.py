@@ -42,10 +42,11 @@ class Marches(harness.PythonTest):
         return points - 2.5, cells
 
     def test_a_function_is_called_once_a_substep_with_all_vertices(self):
-        sizes = []
+        sizes, threads = [], set()
 
         def counted(x, t):
             sizes.append(len(x))
+            threads.add(threading.get_ident())
             return numpy.zeros_like(x)
 
         big = domain(3, 13)
@@ -54,6 +55,7 @@ class Marches(harness.PythonTest):
                        suggest_layers=False).propose([0, 1, 2])
         self.assertGreater(max(sizes), 600)  # a chunk of the library's own is 512
         self.assertEqual(max(sizes), on_boundary - 8)
+        self.assertEqual(threads, {threading.get_ident()})
         stages = 4 * 3 * 2
         self.assertLess(len(sizes), 20 * stages)
 
