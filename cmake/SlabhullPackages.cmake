@@ -23,16 +23,39 @@ surfaces and a motion.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libslabhull-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libopenmesh-dev, libtet1.5-dev, libboost-graph-dev, libcgal-dev, libeigen3-dev, \
-libtomlplusplus-dev, libfmt-dev, libpugixml-dev, zlib1g-dev, liblz4-dev, libmuparser-dev")
+libtomlplusplus-dev, libfmt-dev, libpugixml-dev, zlib1g-dev, liblz4-dev, libmuparser-dev, nlohmann-json3-dev")
+if(OCCT_FOUND)
+    string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libocct-modeling-algorithms-dev, libocct-data-exchange-dev")
+endif()
+if(HDF5C_FOUND)
+    string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libhdf5-dev")
+endif()
 set(CPACK_COMPONENT_DEV_DESCRIPTION
     "Static libraries and headers of Slabhull, found by find_package(Slabhull)
 of CMake and by pkg-config: marches of a solver, checks, sections and
 fillings.")
 
+set(packages slabhull libslabhull-dev)
+if(SLABHULL_HAS_PYTHON_MODULE)
+    list(APPEND packages python3-slabhull)
+    list(APPEND CPACK_COMPONENTS_ALL python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-slabhull)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+        "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3-numpy")
+    set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+        "The module slabhull of Python: marches with motions that are functions,
+hulls as views of numpy, checks, sections, fillings and files.")
+endif()
+
 # What Debian wants with each package.
-foreach(package slabhull libslabhull-dev)
-    string(REPLACE "libslabhull-dev" dev component ${package})
-    string(REPLACE slabhull program component ${component})
+foreach(package IN LISTS packages)
+    set(component program)
+    if(package MATCHES "dev$")
+        set(component dev)
+    elseif(package MATCHES "^python")
+        set(component python)
+    endif()
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/${package}/changelog CONTENT
         "slabhull (@PROJECT_VERSION@) unstable; urgency=medium\n\n  * See CHANGELOG.md.\n\n -- @CPACK_PACKAGE_CONTACT@  Sun, 29 Nov 2026 12:00:00 +0000\n" @ONLY)
     execute_process(COMMAND gzip -9nkf ${PROJECT_BINARY_DIR}/debian/${package}/changelog)

@@ -36,9 +36,7 @@ PatchNumber require_patch(const PatchList& patches, const std::string& name) {
 /// The march after a slab, whose hull stays.
 template<int D>
 std::shared_ptr<March<D>> march_after(March<D>& march, const Slab<D>& slab) {
-    MarchState<D> next{slab.terminating(), slab.hull.time[1], slab.hull.slab + 1, slab.next_ids, {}};
-    next.boundary = march.state().boundary.bounding(next.cap.vertex_ids);
-    return std::make_shared<March<D>>(std::move(next), march.settings());
+    return std::make_shared<March<D>>(state_after(march.state().boundary, slab), march.settings());
 }
 
 py::dict as_dict(const StageClock& clock) {

@@ -18,6 +18,8 @@ try_packages() { # FOLDER
     slabhull view out/room/slab_0000.vtu --out room.html
     gzip -t /usr/share/man/man1/slabhull-build.1.gz
     echo "== from the package to the first page: $((SECONDS - begin)) s"
+    apt-get install -y -qq "$1"/python3-slabhull_*.deb >/dev/null 2>&1
+    /usr/bin/python3 -c 'import slabhull; print("== the module of Python is", slabhull.__version__)'
     apt-get install -y -qq "$1"/libslabhull-dev_*.deb cmake g++ >/dev/null 2>&1
     cmake -S "$OLDPWD/tests/consumer" -B consumer >/dev/null
     cmake --build consumer >/dev/null
@@ -29,9 +31,11 @@ if [[ ${1:-} == --try ]]; then
     exit
 fi
 scripts/install-deps.sh --test
-scripts/build.sh release -DSLABHULL_UNITY=ON
+cmake -S . -B build/package -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DSLABHULL_TESTS=OFF \
+    -DSLABHULL_UNITY=ON >/dev/null
+cmake --build build/package
 rm -rf build/packages
-(cd build/release && cpack -B ../packages >/dev/null)
+(cd build/package && cpack -B ../packages >/dev/null)
 rm -rf build/packages/_CPack_Packages
 command -v lintian >/dev/null && lintian --allow-root --fail-on error build/packages/*.deb
 scripts/bare.sh 'bash scripts/packages.sh --try /repository/build/packages'

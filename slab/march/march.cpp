@@ -52,6 +52,13 @@ Slab<D> March<D>::build(std::vector<double> times, StageClock& clock) {
 }
 
 template<int D>
+MarchState<D> state_after(const Boundary<D>& boundary, const Slab<D>& slab) {
+    MarchState<D> state{slab.terminating(), slab.hull.time[1], slab.hull.slab + 1, slab.next_ids, {}};
+    state.boundary = slab.boundary.value_or(boundary).bounding(state.cap.vertex_ids);
+    return state;
+}
+
+template<int D>
 void March<D>::accept(Slab<D>&& slab) {
     if (slab.hull.slab != state_.slab || slab.hull.time[0] != state_.time || slab.hull.vertex_ids.empty() ||
         slab.hull.vertex_ids[0] != first_id_) {
@@ -60,20 +67,18 @@ void March<D>::accept(Slab<D>&& slab) {
                         "and t = {}",
                         slab.hull.slab, slab.hull.time[0], state_.slab, state_.time));
     }
-    state_.time = slab.hull.time[1];
     state_.cap = {}; // before the next one is made
-    state_.cap = slab.terminating();
-    state_.boundary = slab.boundary.value_or(state_.boundary).bounding(state_.cap.vertex_ids);
+    state_ = state_after(state_.boundary, slab);
     slab.hull = {};
     first_id_ = first_id();
-    state_.ids = slab.next_ids;
-    ++state_.slab;
 }
 
 template MarchState<2> march_from<2>(Domain<2>, double);
 template MarchState<3> march_from<3>(Domain<3>, double);
 template MarchState<2> march_from<2>(SpatialMesh<2>, double, const IdCounter&);
 template MarchState<3> march_from<3>(SpatialMesh<3>, double, const IdCounter&);
+template MarchState<2> state_after<2>(const Boundary<2>&, const Slab<2>&);
+template MarchState<3> state_after<3>(const Boundary<3>&, const Slab<3>&);
 template class March<2>;
 template class March<3>;
 

@@ -9,7 +9,7 @@ import subprocess
 import time
 import zlib
 
-from harness import PROGRAM, SANITIZED, ProgramTest, main, slabhull
+from harness import PROGRAM, ProgramTest, main, slabhull
 
 CASE = """
 dimension = {dimension}
@@ -56,7 +56,6 @@ class Interrupted(ProgramTest):
         rng = random.Random(seed)
         out = self.dir / "out"
         done, most = 0, 0
-        kills = kills if not SANITIZED else (kills + 4) // 5
         while done < kills:
             if self.kill_at_random(case, out, duration / 4, rng):
                 done += 1

@@ -31,6 +31,11 @@ MarchState<D> march_from(Domain<D> domain, double time);
 template<int D>
 MarchState<D> march_from(SpatialMesh<D> cap, double time, const IdCounter& ids);
 
+/// The state of a march whose boundary is `boundary`, after a slab that starts from there; the slab's hull
+/// stays. What March::accept() goes on from.
+template<int D>
+MarchState<D> state_after(const Boundary<D>& boundary, const Slab<D>& slab);
+
 /// Builds slab after slab on a moving domain. A solver that predicts and corrects may propose slabs as often
 /// as it likes: all start from the same initial cap, and nothing changes until one is accepted. All proposals
 /// with the same number of layers and the same split give the same ids to the same vertices of cap, side and
