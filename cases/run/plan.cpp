@@ -2,6 +2,7 @@
 #include "slabhull/cases/plan.h"
 
 #include "cases/run/bodies.h"
+#include "cases/run/cost.h"
 #include "geometry/meshing/cap_limits.h"
 #include "slabhull/cases/initial.h"
 #include "slabhull/cases/settings.h"
@@ -94,12 +95,10 @@ private:
     }
 
     void estimate_cost() {
-        const double bytes_per_simplex = case_.check_embedding ? 60 : 45;
-        constexpr double per_second = 6e5; // built, checked and written on two cores of 2020
         for (const SlabPlan& slab : plan_.slabs) {
             const double simplices = slab.side_simplices + 2 * plan_.cap_simplices;
-            plan_.bytes = std::max(plan_.bytes, bytes_per_simplex * simplices);
-            plan_.seconds += simplices / per_second;
+            plan_.bytes = std::max(plan_.bytes, bytes_per_simplex(case_) * simplices);
+            plan_.seconds += simplices / simplices_per_second;
         }
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/cases/run.h"
 
+#include "cases/run/cost.h"
 #include "cases/run/earlier_run.h"
 #include "cases/run/journal.h"
 #include "cases/run/report_objects.h"
@@ -271,15 +272,14 @@ private:
     /// Given layers may make more simplices than was meant: warn before minutes go by, with what they take.
     void warn_of_size(std::size_t layers) const {
         constexpr double many = 5e7;
-        constexpr double per_second = 6e5; // on two cores of 2020
-        const double bytes = case_.check_embedding ? 60 : 45;
         const auto facets = march_->state().boundary.facets().size();
         const double simplices = side_simplex_count(facets, layers, case_.split);
         if (!case_.layers_follow_motion() && simplices > many) {
             listener_.warning(fmt::format("slab {}: {} facets in {} layers make a side of {:.2g} simplices; "
                                           "that takes some {:.2g} GB and {:.0f} minutes",
                                           march_->state().slab, facets, layers, simplices,
-                                          1e-9 * bytes * simplices, simplices / per_second / 60));
+                                          1e-9 * bytes_per_simplex(case_) * simplices,
+                                          simplices / simplices_per_second / 60));
         }
     }
 

@@ -16,15 +16,6 @@ namespace slabhull {
 
 namespace {
 
-template<int D>
-double extent_of(const Array<Point<D>>& points) {
-    double largest = 0;
-    for (const Point<D>& point : points) {
-        largest = std::max(largest, distance(point, points.front()));
-    }
-    return largest;
-}
-
 /// Stands for the track that a new vertex gets when the slab is stitched: above all others, and in the same
 /// order, since diagonals follow from the order of tracks.
 TrackId provisional_track(Index column) {

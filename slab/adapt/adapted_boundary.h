@@ -43,7 +43,6 @@ public:
     std::vector<Index> vertices_in(const AdaptMesh<D>& mesh) const;
 
     bool changed() const { return changed_; }
-    std::span<const double> spacing() const { return spacing_; }
     /// Least and largest length of its edges over what is wanted.
     std::array<double, 2> length_ratios() const;
     LayeredSweep<D> sweep() &&;

@@ -142,6 +142,9 @@ std::vector<Index> BoundaryOperations<D>::neighbors_of(const std::vector<Index>&
 
 template<int D>
 std::optional<PatchNumber> BoundaryOperations<D>::patch_of(const std::vector<Index>& facets) const {
+    if (facets.empty()) {
+        return std::nullopt;
+    }
     const PatchNumber patch = boundary_.patch()[facets.front()];
     const auto found = options_.patches.find(patch);
     const bool fixed = found != options_.patches.end() && found->second.fixed;
@@ -225,7 +228,7 @@ bool BoundaryOperations<D>::split(Index first, Index second, Cavity<D>& cavity) 
     const Index a = own(first);
     const Index b = own(second);
     const std::vector<Index> removed = facets_at_edge(a, b);
-    const auto patch = removed.empty() ? std::nullopt : patch_of(removed);
+    const auto patch = patch_of(removed);
     if (!patch) {
         return false;
     }
@@ -354,7 +357,7 @@ bool BoundaryOperations<D>::flip(Index first, Index second, Cavity<D>& cavity) c
         const Index a = own(first);
         const Index b = own(second);
         const std::vector<Index> removed = facets_at_edge(a, b);
-        const auto patch = removed.empty() ? std::nullopt : patch_of(removed);
+        const auto patch = patch_of(removed);
         if (!patch) {
             return false;
         }

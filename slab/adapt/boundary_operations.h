@@ -53,7 +53,7 @@ private:
     void gather_star(Index own, std::vector<Index>& star) const;
     std::vector<Index> facets_at_edge(Index a, Index b) const;
     std::vector<Index> neighbors_of(const std::vector<Index>& star, Index own) const;
-    /// The patch of all these facets, if it is one whose facets may be changed.
+    /// The patch of all these facets, if there are any and it is one whose facets may be changed.
     std::optional<PatchNumber> patch_of(const std::vector<Index>& facets) const;
 
     bool keeps_sharp_edges(const std::vector<Index>& star, Index ending, Index kept) const;

@@ -3,6 +3,7 @@
 
 #include "slab/check/hull_view.h"
 
+#include <optional>
 #include <vector>
 
 namespace slabhull {
@@ -21,6 +22,25 @@ struct BoundaryFacetChange {
 /// Needs: tracks, adjacency. Cost: one pass over the side, and sorting the cells at its centres and apexes.
 template<int D>
 std::vector<BoundaryFacetChange<D>> find_boundary_changes(const HullView<D>& view);
+
+/// The changes of a hull under examination, found when they are first asked for: most hulls have none.
+template<int D>
+class BoundaryChanges {
+public:
+    /// `view` must outlive this, and not change once they were asked for.
+    explicit BoundaryChanges(const HullView<D>& view) : view_{view} {}
+
+    const std::vector<BoundaryFacetChange<D>>& operator()() {
+        if (!found_) {
+            found_ = find_boundary_changes(view_);
+        }
+        return *found_;
+    }
+
+private:
+    const HullView<D>& view_;
+    std::optional<std::vector<BoundaryFacetChange<D>>> found_;
+};
 
 /// Vertices at which changes begin tracks, and end them; ascending.
 struct TrackEnds {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/check.h"
 
+#include "slab/check/boundary_changes.h"
 #include "slab/check/check_shape.h"
 #include "slab/check/hull_view.h"
 #include "slabhull/core/memory.h"
@@ -175,7 +176,8 @@ private:
             findings_.skip("tracks, the caps' boundaries", "there is no array track_id");
             return;
         }
-        check_tracks(view_, findings_);
+        BoundaryChanges<D> changes{view_};
+        check_tracks(view_, changes, findings_);
         if (view_.hull.patch.given()) {
             check_patch_columns(view_, findings_);
         }
@@ -186,7 +188,7 @@ private:
         if (findings_.any({Defect::untracked_boundary, Defect::track_repeats_time})) {
             findings_.skip("comparison of the caps' boundaries", "their tracks are not in order");
         } else {
-            check_boundary_image(view_, boundary, findings_);
+            check_boundary_image(boundary, changes, findings_);
         }
     }
 

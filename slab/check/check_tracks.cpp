@@ -213,7 +213,7 @@ std::vector<Index> cap_cells_at_side(const HullView<D>& view) {
 } // namespace
 
 template<int D>
-void check_tracks(const HullView<D>& view, Findings& findings) {
+void check_tracks(const HullView<D>& view, BoundaryChanges<D>& changes, Findings& findings) {
     const std::vector<std::array<TrackId, 2>> parts = parts_of_range(view.track);
     std::vector<std::vector<TrackPoint>> faulty(parts.size());
     parallel_for(parts.size(), 1, [&](std::size_t part, std::size_t) {
@@ -228,7 +228,7 @@ void check_tracks(const HullView<D>& view, Findings& findings) {
     for (const std::vector<TrackPoint>& points : faulty) {
         if (!points.empty() && on_side.empty()) {
             on_side = mark_vertices(view, 1, [&](std::size_t c) { return !view.in_cap(c); });
-            ends = track_ends(view, find_boundary_changes(view));
+            ends = track_ends(view, changes());
         }
         each_track(points, [&](std::span<const TrackPoint> track) {
             const bool inside = std::none_of(track.begin(), track.end(),
@@ -263,14 +263,15 @@ BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findin
 }
 
 template<int D>
-void check_boundary_image(const HullView<D>& view, const BoundaryFacets<D>& boundary, Findings& findings) {
+void check_boundary_image(const BoundaryFacets<D>& boundary, BoundaryChanges<D>& changes,
+                          Findings& findings) {
     const auto on_same_tracks = [](const BoundaryFacet<D>& a, const BoundaryFacet<D>& b) {
         return a.tracks == b.tracks;
     };
     const bool same = std::equal(boundary[0].begin(), boundary[0].end(), boundary[1].begin(),
                                  boundary[1].end(), on_same_tracks);
     const std::vector<BoundaryFacet<D>> expected =
-        same ? boundary[0] : after_changes<D>(boundary[0], find_boundary_changes(view));
+        same ? boundary[0] : after_changes<D>(boundary[0], changes());
     auto first = expected.begin();
     auto image = boundary[1].begin();
     while (first != expected.end() || image != boundary[1].end()) {
@@ -291,11 +292,11 @@ void check_boundary_image(const HullView<D>& view, const BoundaryFacets<D>& boun
     }
 }
 
-template void check_tracks<2>(const HullView<2>&, Findings&);
-template void check_tracks<3>(const HullView<3>&, Findings&);
+template void check_tracks<2>(const HullView<2>&, BoundaryChanges<2>&, Findings&);
+template void check_tracks<3>(const HullView<3>&, BoundaryChanges<3>&, Findings&);
 template BoundaryFacets<2> check_cap_boundaries<2>(const HullView<2>&, Findings&);
 template BoundaryFacets<3> check_cap_boundaries<3>(const HullView<3>&, Findings&);
-template void check_boundary_image<2>(const HullView<2>&, const BoundaryFacets<2>&, Findings&);
-template void check_boundary_image<3>(const HullView<3>&, const BoundaryFacets<3>&, Findings&);
+template void check_boundary_image<2>(const BoundaryFacets<2>&, BoundaryChanges<2>&, Findings&);
+template void check_boundary_image<3>(const BoundaryFacets<3>&, BoundaryChanges<3>&, Findings&);
 
 } // namespace slabhull

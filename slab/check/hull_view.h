@@ -91,6 +91,9 @@ void set_tracks(const HullView<D>& view, BoundaryFacet<D>& facet) {
 template<int D>
 using BoundaryFacets = std::array<std::vector<BoundaryFacet<D>>, 2>;
 
+template<int D>
+class BoundaryChanges; // boundary_changes.h
+
 // --- check_regions.cpp
 // -----------------------------------------------------------------------------------------------
 
@@ -128,7 +131,7 @@ CellSurvey<D> survey_cells(const HullView<D>& view, double sign = 1);
 /// Checks that each track has one vertex at a time and, on the side, leads from the slab's start to its end,
 /// unless a change of the boundary's connectivity begins or ends it.
 template<int D>
-void check_tracks(const HullView<D>& view, Findings& findings);
+void check_tracks(const HullView<D>& view, BoundaryChanges<D>& changes, Findings& findings);
 
 /// The facets between caps and side. Checks that their vertices have tracks and that no other cap vertex is
 /// on one of these.
@@ -138,7 +141,7 @@ BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findin
 /// Checks that the terminating cap's boundary is exactly the image of the initial one's under the tracks and
 /// the changes of its connectivity.
 template<int D>
-void check_boundary_image(const HullView<D>& view, const BoundaryFacets<D>& boundary, Findings& findings);
+void check_boundary_image(const BoundaryFacets<D>& boundary, BoundaryChanges<D>& changes, Findings& findings);
 
 // --- check_patches.cpp
 // -----------------------------------------------------------------------------------------------

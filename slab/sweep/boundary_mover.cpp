@@ -14,15 +14,6 @@ namespace slabhull {
 
 namespace {
 
-template<int D>
-double extent_of(std::span<const Point<D>> points) {
-    double largest = 0;
-    for (const auto& point : points) {
-        largest = std::max(largest, distance(point, points.front()));
-    }
-    return largest;
-}
-
 /// Motions that take a vertex to places further apart than this, in extents, disagree.
 constexpr double agreement = 1e-9;
 

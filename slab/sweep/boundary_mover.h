@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slabhull/core/error.h"
+#include "slabhull/core/vector.h"
 #include "slabhull/slab/sweep.h"
 
 #include <algorithm>
@@ -12,6 +13,16 @@
 #include <vector>
 
 namespace slabhull {
+
+/// Size of a mesh, relative to which rounding is judged: the largest distance from its first point.
+template<int D>
+double extent_of(std::span<const Point<D>> points) {
+    double largest = 0;
+    for (const auto& point : points) {
+        largest = std::max(largest, distance(point, points.front()));
+    }
+    return largest;
+}
 
 /// Where the projection surface of a patch is at a time: it moves with the patch, and stands still if that
 /// stretches.
