@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 #include <utility>
 
 namespace slabhull {
@@ -24,72 +22,6 @@ Point<D + 1> in_space_time(const Point<D>& place, double time) {
     std::copy(place.begin(), place.end(), point.begin());
     point[D] = time;
     return point;
-}
-
-/// Sign with which a simplex traverses its facet opposite to vertex i, for ascending vertices of that facet.
-template<std::size_t N>
-bool traverses_oddly(const std::array<Index, N>& simplex, std::size_t i) {
-    bool odd = i % 2 == 1;
-    for (std::size_t a = 0; a < N; ++a) {
-        for (std::size_t b = 0; b < a; ++b) {
-            odd = odd != (a != i && b != i && simplex[b] > simplex[a]);
-        }
-    }
-    return odd;
-}
-
-/// Turns the simplices of a closed manifold to agree with the first. False when they do not close.
-template<std::size_t N>
-bool orient_alike(std::vector<std::array<Index, N>>& pieces) {
-    std::map<std::vector<Index>, std::vector<std::pair<std::size_t, std::size_t>>> at_ridge;
-    for (std::size_t p = 0; p < pieces.size(); ++p) {
-        for (std::size_t i = 0; i < N; ++i) {
-            std::vector<Index> ridge;
-            for (std::size_t k = 0; k < N; ++k) {
-                if (k != i) {
-                    ridge.push_back(pieces[p][k]);
-                }
-            }
-            std::sort(ridge.begin(), ridge.end());
-            at_ridge[ridge].emplace_back(p, i);
-        }
-    }
-    std::vector<std::vector<std::array<std::size_t, 3>>> across(pieces.size()); // own ridge, other, its ridge
-    for (const auto& [ridge, sides] : at_ridge) {
-        if (sides.size() != 2) {
-            return false;
-        }
-        across[sides[0].first].push_back({sides[0].second, sides[1].first, sides[1].second});
-        across[sides[1].first].push_back({sides[1].second, sides[0].first, sides[0].second});
-    }
-    std::vector<std::uint8_t> met(pieces.size(), 0);
-    std::vector<std::size_t> queue{0};
-    met[0] = 1;
-    for (std::size_t next = 0; next < queue.size(); ++next) {
-        const std::size_t p = queue[next];
-        for (const auto& step : across[p]) {
-            const std::size_t other = step[1];
-            if (met[other] != 0) {
-                continue;
-            }
-            // a swap keeps the ridges, but not their places: find the ridge's place again
-            const auto place_of = [&](std::size_t piece, std::size_t neighbor) {
-                std::size_t i = 0;
-                while (std::find(pieces[neighbor].begin(), pieces[neighbor].end(), pieces[piece][i]) !=
-                       pieces[neighbor].end()) {
-                    ++i;
-                }
-                return i;
-            };
-            if (traverses_oddly(pieces[p], place_of(p, other)) ==
-                traverses_oddly(pieces[other], place_of(other, p))) {
-                std::swap(pieces[other][0], pieces[other][1]);
-            }
-            met[other] = 1;
-            queue.push_back(other);
-        }
-    }
-    return queue.size() == pieces.size();
 }
 
 } // namespace
@@ -209,10 +141,16 @@ struct LayeredSide<D>::LayerBuilder {
             }
             std::array<Index, D> piece{};
             std::size_t n = 0;
+            std::size_t opposite = 0; // corner of the cell
             for (std::size_t k = 0; k <= D; ++k) {
                 if (filling.across[c][k] != Template::outside + slot) {
                     piece[n++] = prism[filling.cells[c][k]];
+                } else {
+                    opposite = k;
                 }
+            }
+            if ((opposite + D) % 2 == 1) { // so that, followed by an apex, it is outward
+                std::swap(piece[0], piece[1]);
             }
             pieces.push_back(piece);
         }
@@ -305,6 +243,7 @@ void LayeredSide<D>::add_layer(std::size_t number, const SideOptions& options) {
             for (std::size_t i = 0; i < D; ++i) {
                 piece[i] = vertex[boundary.facets()[f][i]];
             }
+            std::swap(piece[0], piece[1]); // a facet before a later vertex is inward
             pieces.push_back(piece);
         }
         for (const Facet<D>& facet : change.added) {
@@ -320,20 +259,13 @@ void LayeredSide<D>::add_layer(std::size_t number, const SideOptions& options) {
             }
             pieces.push_back(piece);
         }
-        add_cone(change, std::move(pieces), apexes[k]);
+        add_cone(pieces, apexes[k]);
     }
 }
 
-/// The first piece is a facet below: with the apex, it faces inward.
+/// Cones pieces that are outward when the apex follows them.
 template<int D>
-void LayeredSide<D>::add_cone(const BoundaryChange<D>& change, std::vector<std::array<Index, D>> pieces,
-                              Index apex) {
-    std::swap(pieces[0][0], pieces[0][1]);
-    if (!orient_alike(pieces)) {
-        throw GeometryError{
-            fmt::format("a change of {} facets of the boundary does not close", change.removed.size()),
-            {{"facet", change.removed.front(), {}}}};
-    }
+void LayeredSide<D>::add_cone(std::span<const std::array<Index, D>> pieces, Index apex) {
     for (const auto& piece : pieces) {
         Simplex<D> cell;
         std::copy(piece.begin(), piece.end(), cell.begin());

@@ -34,7 +34,7 @@ private:
     Index level_vertex(std::size_t level, Index column) const;
     void enter_level(std::size_t level);
     void add_layer(std::size_t layer, const SideOptions& options);
-    void add_cone(const BoundaryChange<D>& change, std::vector<std::array<Index, D>> pieces, Index apex);
+    void add_cone(std::span<const std::array<Index, D>> pieces, Index apex);
 
     std::size_t initial_points_;
     const LayeredSweep<D>& sweep_;
