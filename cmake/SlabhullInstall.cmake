@@ -34,7 +34,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/cmake/completion/slabhull
 set(manual ${PROJECT_BINARY_DIR}/man1)
 add_custom_command(OUTPUT ${manual}/slabhull.1.gz
     COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:slabhull> -DFOLDER=${manual} -DVERSION=${PROJECT_VERSION}
-        -P ${CMAKE_CURRENT_LIST_DIR}/write_manual.cmake
+        -DDOCUMENTS=${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/doc/slabhull/docs -P ${CMAKE_CURRENT_LIST_DIR}/write_manual.cmake
     DEPENDS slabhull ${CMAKE_CURRENT_LIST_DIR}/write_manual.cmake VERBATIM)
 add_custom_target(manual ALL DEPENDS ${manual}/slabhull.1.gz)
 install(DIRECTORY ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)

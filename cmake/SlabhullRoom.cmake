@@ -37,15 +37,20 @@ if(SLABHULL_FUZZ)
 endif()
 
 # slabhull_room(<name> [NOT_INSTALLED] [NO_HOT_LOOPS] SOURCES <files> [USES <rooms>] [LINKS <private libraries>])
-# A room is a static library Slabhull::<name> with public headers under include/slabhull/<name>/.
+# A room is a library Slabhull::<name>, static or by BUILD_SHARED_LIBS shared, with public headers under include/slabhull/<name>/.
 # What it LINKS stays inside its .cpp files and out of its headers. Private headers are included by their path from the
 # top: "geometry/meshing/cap_spacing.h". A room with NO_HOT_LOOPS is optimised less, for a quicker build.
 function(slabhull_room name)
     cmake_parse_arguments(room "NOT_INSTALLED;NO_HOT_LOOPS" "" "SOURCES;USES;LINKS" ${ARGN})
     set(target slabhull_${name})
-    add_library(${target} STATIC ${room_SOURCES})
+    set(kind STATIC)
+    if(BUILD_SHARED_LIBS AND NOT room_NOT_INSTALLED)
+        set(kind SHARED)
+    endif()
+    add_library(${target} ${kind} ${room_SOURCES})
     add_library(Slabhull::${name} ALIAS ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
         UNITY_BUILD ${SLABHULL_UNITY} UNITY_BUILD_BATCH_SIZE 16)
     target_include_directories(${target} PUBLIC
         $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
@@ -62,6 +67,7 @@ function(slabhull_room name)
     endif()
     if(NOT room_NOT_INSTALLED)
         install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
-        install(TARGETS ${target} EXPORT SlabhullTargets COMPONENT dev)
+        install(TARGETS ${target} EXPORT SlabhullTargets ARCHIVE COMPONENT dev
+            LIBRARY COMPONENT lib NAMELINK_COMPONENT dev)
     endif()
 endfunction()

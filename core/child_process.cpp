@@ -127,7 +127,8 @@ void die_with(pid_t parent) {
     out.close_now();
     reset_signals();
     die_with(parent);
-    const detail::WatchScope unwatched{nullptr}; // the parent asks whether to go on
+    const detail::WatchScope unwatched{
+        {nullptr, detail::current_watch().count}}; // the parent asks whether to go on
     try {
         job([&far](const void* bytes, std::size_t size) {
             if (!transfer(write, far.number(), static_cast<const char*>(bytes), size)) {

@@ -1,28 +1,82 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/core/progress.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <new>
 #include <utility>
+
+#include <sys/mman.h>
 
 namespace slabhull {
 
+std::optional<double> WorkState::share() const {
+    if (expected == 0) {
+        return std::nullopt;
+    }
+    return std::min(1.0, static_cast<double>(done) / static_cast<double>(expected));
+}
+
 namespace detail {
+
+/// What a stage has done. It lies in memory that child processes share.
+class StageCount {
+public:
+    explicit StageCount(std::uint64_t expected) {
+        void* page = mmap(nullptr, sizeof(Counts), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        if (page != MAP_FAILED) {
+            counts_ = new (page) Counts{{0}, {expected}};
+        }
+    }
+    StageCount(const StageCount&) = delete;
+    StageCount& operator=(const StageCount&) = delete;
+    ~StageCount() {
+        if (counts_ != nullptr) {
+            munmap(counts_, sizeof(Counts));
+        }
+    }
+
+    void add(std::uint64_t done) {
+        if (counts_ != nullptr) {
+            counts_->done.fetch_add(done, std::memory_order_relaxed);
+        }
+    }
+    void expect(std::uint64_t expected) {
+        if (counts_ != nullptr) {
+            counts_->expected = expected;
+        }
+    }
+    std::pair<std::uint64_t, std::uint64_t> done_of_expected() const {
+        return counts_ == nullptr ? std::pair<std::uint64_t, std::uint64_t>{}
+                                  : std::pair{counts_->done.load(), counts_->expected.load()};
+    }
+
+private:
+    struct Counts {
+        std::atomic<std::uint64_t> done;
+        std::atomic<std::uint64_t> expected;
+    };
+    static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "processes share it");
+
+    Counts* counts_ = nullptr; ///< null where there was no memory: then nothing is counted
+};
 
 class ProgressWatch {
 public:
-    ProgressWatch(Progress progress, ProgressWatchPointer outer)
+    ProgressWatch(Progress progress, std::shared_ptr<ProgressWatch> outer)
         : progress_{std::move(progress)}, outer_{std::move(outer)} {}
 
-    void enter(const std::string& stage) {
+    void enter(const std::string& stage, const std::shared_ptr<StageCount>& count) {
         {
             const std::lock_guard guard{lock_};
             stage_ = stage;
+            count_ = count;
         }
         next_ = 0;
         if (outer_) {
-            outer_->enter(stage);
+            outer_->enter(stage, count);
         }
     }
 
@@ -32,7 +86,7 @@ public:
         }
         if (!stopped_ && is_time()) {
             const std::lock_guard guard{lock_};
-            if (!stopped_ && !progress_(stage_)) {
+            if (!stopped_ && !progress_(state())) {
                 stopped_ = true;
             }
         }
@@ -40,6 +94,12 @@ public:
     }
 
 private:
+    WorkState state() const {
+        const auto [done, expected] =
+            count_ ? count_->done_of_expected() : std::pair<std::uint64_t, std::uint64_t>{};
+        return {stage_, done, expected};
+    }
+
     /// True for one thread in each twentieth of a second.
     bool is_time() {
         using namespace std::chrono;
@@ -50,41 +110,72 @@ private:
     }
 
     Progress progress_;
-    ProgressWatchPointer outer_;
+    std::shared_ptr<ProgressWatch> outer_;
     std::mutex lock_;
     std::string stage_;
+    std::shared_ptr<StageCount> count_;
     std::atomic<std::int64_t> next_{0}; ///< when to ask again, in milliseconds
     std::atomic<bool> stopped_{false};
 };
 
 namespace {
-thread_local ProgressWatchPointer watch;
+thread_local Watched watched;
 }
 
-ProgressWatchPointer current_watch() {
-    return watch;
+Watched current_watch() {
+    return watched;
 }
 
-WatchScope::WatchScope(ProgressWatchPointer next) : before_{std::exchange(watch, std::move(next))} {}
+WatchScope::WatchScope(Watched next) : before_{std::exchange(watched, std::move(next))} {}
 
 WatchScope::~WatchScope() {
-    watch = std::move(before_);
+    watched = std::move(before_);
 }
 
 } // namespace detail
 
 ProgressScope::ProgressScope(Progress progress)
-    : scope_{std::make_shared<detail::ProgressWatch>(std::move(progress), detail::current_watch())} {}
+    : scope_{{std::make_shared<detail::ProgressWatch>(std::move(progress), detail::watched.watch),
+              detail::watched.count}} {}
 
-void enter_stage(const std::string& stage) {
-    if (detail::watch) {
-        detail::watch->enter(stage);
+void enter_stage(const std::string& stage, std::uint64_t expected) {
+    auto& [watch, count] = detail::watched;
+    count = watch ? std::make_shared<detail::StageCount>(expected) : nullptr;
+    if (watch) {
+        watch->enter(stage, count);
     }
     go_on();
 }
 
+void expect_work(std::uint64_t expected) {
+    if (detail::watched.count) {
+        detail::watched.count->expect(expected);
+    }
+}
+
+void work_done(std::uint64_t count) {
+    if (detail::watched.count) {
+        detail::watched.count->add(count);
+    }
+}
+
+BackgroundStage::BackgroundStage(std::string stage, std::uint64_t expected)
+    : stage_{std::move(stage)}, count_{std::make_shared<detail::StageCount>(expected)} {}
+
+void BackgroundStage::show() const {
+    if (detail::watched.watch) {
+        detail::watched.count = count_;
+        detail::watched.watch->enter(stage_, count_);
+    }
+    go_on();
+}
+
+std::uint64_t BackgroundStage::done() const {
+    return count_->done_of_expected().first;
+}
+
 void go_on() {
-    if (detail::watch && !detail::watch->goes_on()) {
+    if (detail::watched.watch && !detail::watched.watch->goes_on()) {
         throw Interrupted{};
     }
 }

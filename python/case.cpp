@@ -31,8 +31,7 @@ namespace {
 class Remarks {
 public:
     Listener listener() {
-        return {[this](const std::string& text) { texts_.push_back(text); },
-                [](const std::string&, double) {}};
+        return {[this](const std::string& text) { texts_.push_back(text); }, [](const RunProgress&) {}};
     }
     /// As warnings of Python, which may be turned into exceptions.
     void warn() const {
@@ -86,7 +85,7 @@ StartDomain domain_of_file(const std::filesystem::path& path, const std::vector<
     return domain_of(only_mesh);
 }
 
-/// Runs a case; `told` hears of slabs with the share that is done, and of stages without.
+/// Runs a case; `told` hears how far it has come.
 py::dict run(Case the_case, const std::optional<std::filesystem::path>& out, bool resume,
              const py::object& told) {
     if (out) {
@@ -95,19 +94,10 @@ py::dict run(Case the_case, const std::optional<std::filesystem::path>& out, boo
     Remarks remarks;
     Listener listener = remarks.listener();
     Watch watch{told};
-    listener.progress = [&watch](const std::string& text, double done) {
-        if (!watch.goes_on(text, done)) {
-            throw Interrupted{};
-        }
-    };
-    const RunResult result = [&] {
-        try {
-            return long_call(told, [&] { return run_case(the_case, listener, {resume}); });
-        } catch (const Interrupted&) {
-            watch.rethrow();
-            throw;
-        }
-    }();
+    listener.progress = [&watch](const RunProgress& run) { watch.tell(run); };
+    const RunResult result = long_call(
+        watch, [&watch](const WorkState&) { return watch.goes_on(); },
+        [&] { return run_case(the_case, listener, {resume}); });
     remarks.warn();
     py::dict summary;
     summary["files"] = result.files;

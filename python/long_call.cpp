@@ -3,24 +3,34 @@
 
 namespace slabhull::python {
 
-bool Watch::goes_on(const std::string& stage, std::optional<double> share) {
+void Watch::tell(const RunProgress& run) {
+    if (told_.is_none() || run.work.stage.empty()) {
+        return;
+    }
     const py::gil_scoped_acquire lock;
     if (failure_) {
-        return false;
+        return;
     }
     try {
-        if (PyErr_CheckSignals() != 0) {
-            throw py::error_already_set{};
-        }
-        if (told_.is_none() || stage.empty()) {
-            return true;
-        }
-        const py::object answer = told_(stage, share ? py::object{py::float_(*share)} : py::none());
-        return answer.ptr() != Py_False;
+        stopped_ = stopped_ || told_(run).ptr() == Py_False;
     } catch (const py::error_already_set&) {
         failure_ = std::current_exception();
-        return false;
     }
+}
+
+void Watch::tell(const WorkState& work) {
+    RunProgress run;
+    run.work = work;
+    run.seconds = since_begin_.seconds();
+    tell(run);
+}
+
+bool Watch::goes_on() {
+    const py::gil_scoped_acquire lock;
+    if (!failure_ && PyErr_CheckSignals() != 0) {
+        failure_ = std::make_exception_ptr(py::error_already_set{});
+    }
+    return !failure_ && !stopped_;
 }
 
 } // namespace slabhull::python

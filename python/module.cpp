@@ -19,6 +19,7 @@ PYBIND11_MODULE(_slabhull, module) {
     module.doc() = "Space-time hulls of moving domains; use the package slabhull.";
     module.attr("__version__") = SLABHULL_VERSION;
     python::translate_errors();
+    python::bind_progress(module);
     python::bind_hull(module);
     python::bind_domain(module);
     python::bind_motions(module);

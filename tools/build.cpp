@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.h"
+#include "progress_display.h"
 
 #include "slabhull/cases/plan.h"
 #include "slabhull/cases/run.h"
@@ -9,7 +10,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <unistd.h>
 
 namespace slabhull::tools {
 
@@ -22,17 +22,16 @@ struct BuildOptions {
     bool quiet = false;
     bool resume = false;
     bool dry_run = false;
+    std::string progress = "auto";
 };
 
-Listener listener_for(const BuildOptions& options) {
+Listener listener_with(ProgressDisplay& display) {
     Listener listener;
-    listener.warning = [](const std::string& text) { fmt::print(stderr, "slabhull: warning: {}\n", text); };
-    if (!options.quiet && ::isatty(STDERR_FILENO) != 0) {
-        listener.progress = [](const std::string& stage, double done) {
-            fmt::print(stderr, "\r\033[K[{:3.0f} %] {}{}", 100 * done, stage, done >= 1 ? "\n" : "");
-            std::fflush(stderr);
-        };
-    }
+    listener.warning = [&display](const std::string& text) {
+        display.clear();
+        fmt::print(stderr, "slabhull: warning: {}\n", text);
+    };
+    listener.progress = [&display](const RunProgress& run) { display.show(run); };
     return listener;
 }
 
@@ -58,12 +57,15 @@ int build(const BuildOptions& options) {
     if (!options.directory.empty()) {
         the_case.directory = options.directory;
     }
+    ProgressDisplay display{progress_form(options.progress, options.quiet)};
+    const Listener listener = listener_with(display);
     if (options.dry_run) {
-        print_plan(the_case, plan_case(the_case, listener_for(options)));
+        print_plan(the_case, plan_case(the_case, listener));
         return 0;
     }
     const Stopwatch watch;
-    const RunResult result = run_case(the_case, listener_for(options), {options.resume});
+    const RunResult result = run_case(the_case, listener, {options.resume});
+    display.clear();
     if (!options.quiet) {
         fmt::print("{}: {} simplices, {} points, {} slab{}, checked, in {:.1f} s\n",
                    the_case.title.empty() ? options.case_file : the_case.title, result.cells, result.points,
@@ -75,12 +77,22 @@ int build(const BuildOptions& options) {
     return 0;
 }
 
+/// Where a page of the documentation is: installed beside this program, or in the repository.
+std::string page_of_docs(const std::string& name) {
+    std::error_code none;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", none);
+    const auto installed = program.parent_path().parent_path() / "share/doc/slabhull/docs" / name;
+    return std::filesystem::exists(installed, none) ? installed.string() : "docs/" + name;
+}
+
 } // namespace
 
 void add_build(CLI::App& program, int& exit_code) {
     auto options = std::make_shared<BuildOptions>();
     CLI::App* command = program.add_subcommand("build", "Run a case: one or more slabs");
-    command->add_option("CASE.toml", options->case_file, "The case file (docs/case-file.md)")->required();
+    command
+        ->add_option("CASE.toml", options->case_file, "The case file (" + page_of_docs("case-file.md") + ")")
+        ->required();
     command->add_option("--out", options->directory, "Directory for the output, instead of the case's own");
     command
         ->add_option("--threads", options->threads,
@@ -93,6 +105,7 @@ void add_build(CLI::App& program, int& exit_code) {
         "--dry-run", options->dry_run,
         "Read everything and mesh nothing: say what the run would do, with layers, simplices, memory "
         "and time");
+    add_progress_option(*command, options->progress);
     command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
     command->footer("Example: slabhull build examples/ellipsoid.toml --out out/ellipsoid");
     command->callback([options, &exit_code] { exit_code = build(*options); });

@@ -2,6 +2,7 @@
 #include "commands.h"
 
 #include "mesh_formats.h"
+#include "progress_display.h"
 #include "slabhull/cases/filling_files.h"
 #include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/report.h"
@@ -31,6 +32,7 @@ struct CheckCommand {
     bool no_embedding = false;
     std::string hull; ///< that the filling is compared with
     int threads = 0;
+    std::string progress = "auto";
 };
 
 constexpr int clean = 0;
@@ -93,6 +95,7 @@ void print_summary(const EmbeddingSummary& embedding) {
 template<class Report>
 int tell(const CheckCommand& command, const Report& report,
          const std::optional<EmbeddingSummary>& embedding = std::nullopt) {
+    enter_stage({}); // nothing is shown beside the report
     if (command.json) {
         nlohmann::ordered_json json{{"file", command.file}};
         json.update(nlohmann::ordered_json::parse(report_as_json(report)));
@@ -189,6 +192,9 @@ std::optional<int> check_as_filling(const CheckCommand& command) {
 
 int check(const CheckCommand& command) {
     set_thread_count(command.threads);
+    ProgressDisplay display{progress_form(command.progress, false)};
+    const ProgressScope shown{display.for_work()};
+    enter_stage("reading");
     if (const std::optional<int> exit_code = check_as_filling(command)) {
         return *exit_code;
     }
@@ -219,6 +225,7 @@ void add_check(CLI::App& program, int& exit_code) {
                   "No proof that a hull does not cross itself, in space or in time between its levels")
         ->excludes(embedding);
     app->add_option("--hull", command->hull, "FILE fills the hull of this file: compare them");
+    add_progress_option(*app, command->progress);
     app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")
         ->check(CLI::Range(0, 1024));
     app->footer(

@@ -2,6 +2,7 @@
 #include "commands.h"
 
 #include "mesh_formats.h"
+#include "progress_display.h"
 #include "slabhull/cases/filling_files.h"
 #include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/report.h"
@@ -28,6 +29,7 @@ struct FillCommand {
     FillingFileOptions file;
     bool json = false;
     int threads = 0;
+    std::string progress = "auto";
 };
 
 /// The hull in a soup, whose arrays it takes. Throws InputError when it is not sound.
@@ -89,6 +91,7 @@ int fill_file(const FillCommand& command, io::Soup& soup) {
     StageClock clock;
     const Hull<D> hull = sound_hull<D>(command, soup);
     clock.book("reading and checking the hull");
+    enter_stage("filling");
     const Filling<D> filling = fill_hull(command, hull, clock);
     const FillingReport report = check_filling<D>(columns_of(filling), &hull);
     clock.book("check");
@@ -96,16 +99,21 @@ int fill_file(const FillCommand& command, io::Soup& soup) {
         throw GeometryError{fmt::format("the filling of {} is not sound, so it is not written:\n{}",
                                         command.hull, findings_as_text(report))};
     }
+    enter_stage("writing");
     io::AtomicFiles files;
     write_filling<D>(files, command.out, filling, format, command.file);
     files.commit();
     clock.book("writing");
+    enter_stage({}); // nothing is shown beside the report
     tell<D>(command, filling, hull.layers, report, clock);
     return 0;
 }
 
 int fill(const FillCommand& command) {
     set_thread_count(command.threads);
+    ProgressDisplay display{progress_form(command.progress, false)};
+    const ProgressScope shown{display.for_work()};
+    enter_stage("reading");
     if (command.method == "march" && command.time_scale > 0) {
         throw UsageError{"--time-scale is for --method tetgen: an extrusion has its levels"};
     }
@@ -142,6 +150,7 @@ void add_fill(CLI::App& program, int& exit_code) {
                     "Of MFEM files in four dimensions: 6 (CFOSLS, older), 7 (2021) or 8 (later)")
         ->check(CLI::Range(6, 8));
     app->add_flag("--json", command->json, "One JSON document on stdout");
+    add_progress_option(*app, command->progress);
     app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")
         ->check(CLI::Range(0, 1024));
     app->footer("Exit code 4: the caps are not one mesh moved, or a simplex would be inside out.\n"

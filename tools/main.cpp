@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN); // a file size limit becomes an error message, like a full disk
     answer_signal(SIGINT);
     answer_signal(SIGTERM);
-    const slabhull::ProgressScope scope{[](const std::string&) { return stop_signal == 0; }};
+    const slabhull::ProgressScope scope{[](const slabhull::WorkState&) { return stop_signal == 0; }};
     CLI::App program{"Space-time hulls of moving domains: closed, conforming, checked"};
     program.set_version_flag("--version", slabhull::version());
     program.require_subcommand(1);

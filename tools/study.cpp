@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each hull is built in a process of its own, one after the other, so that peak memory is that of one level.
 #include "commands.h"
+#include "progress_display.h"
 
 #include "slabhull/core/child_process.h"
 #include "slabhull/core/error.h"
@@ -28,6 +29,7 @@ struct StudyOptions {
     std::string directory;
     std::string splits;
     int threads = 0;
+    std::string progress = "auto";
     bool hulls = false;
     bool quiet = false;
 };
@@ -122,6 +124,11 @@ void remove_parts(const std::optional<std::filesystem::path>& hull_file) {
     }
 }
 
+std::string name_of(const Case& the_case) {
+    return fmt::format("{}, level {}, split {}", the_case.experiment, the_case.level,
+                       split_name(the_case.split));
+}
+
 StudyRow study_alone(const Case& the_case, const std::optional<std::filesystem::path>& hull_file) {
     remove_parts(hull_file);
     ChildAnswer answer;
@@ -131,8 +138,7 @@ StudyRow study_alone(const Case& the_case, const std::optional<std::filesystem::
         remove_parts(hull_file);
         throw;
     }
-    const std::string where = fmt::format("{}, level {}, split {}", the_case.experiment, the_case.level,
-                                          split_name(the_case.split));
+    const std::string where = name_of(the_case);
     if (answer.end.signal != 0) {
         remove_parts(hull_file);
         throw GeometryError(
@@ -208,10 +214,15 @@ int study(const StudyOptions& options) {
         cases_of(options); // all arguments are looked at before anything is written
     const std::filesystem::path directory = options.directory;
     io::make_folder(directory);
+    ProgressDisplay display{progress_form(options.progress, options.quiet)};
+    const ProgressScope shown{display.for_work()};
     std::vector<StudyRow> rows;
     for (const Case& the_case : cases) {
+        enter_stage(name_of(the_case), cases.size());
+        work_done(rows.size());
         rows.push_back(study_alone(the_case, hull_path(options, the_case)));
         write_study(directory, rows); // a study that is broken off leaves what it has
+        display.clear();
         if (!options.quiet) {
             print_row(rows.back());
         }
@@ -241,6 +252,7 @@ void add_study(CLI::App& program, int& exit_code) {
         ->required();
     command->add_option("--split", options->splits,
                         "Splits to compare, such as C or A,C,E, or all; by default E (2D: centre)");
+    add_progress_option(*command, options->progress);
     command->add_option("--threads", options->threads, "Threads to use; 0 for all cores")
         ->check(CLI::Range(0, 1024));
     command->add_flag("--hulls", options->hulls, "Write the hulls, too, as VTU");

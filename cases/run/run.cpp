@@ -4,6 +4,7 @@
 #include "cases/run/cost.h"
 #include "cases/run/earlier_run.h"
 #include "cases/run/journal.h"
+#include "cases/run/progress_meter.h"
 #include "cases/run/report_objects.h"
 #include "slabhull/cases/checkpoint.h"
 #include "slabhull/cases/filling_files.h"
@@ -136,6 +137,7 @@ Json settings_as_json(const Case& the_case) {
 struct SlabFiles {
     io::AtomicFiles open;
     std::uint32_t cap_checksum = 0;
+    std::optional<BackgroundStage> stage;
     std::future<void> written; ///< last, to be waited for before the files go
 };
 
@@ -151,7 +153,8 @@ template<int D>
 class Runner {
 public:
     Runner(const Case& the_case, const RunOptions& options, const Listener& listener)
-        : case_{the_case}, listener_{listener} {
+        : case_{the_case}, listener_{listener},
+          meter_{listener, the_case.start, the_case.end, the_case.slabs}, watched_{meter_.watch()} {
         if (!case_.check_embedding) {
             listener_.warning("check.embedding is false: nothing proves that the hulls do not cross "
                               "themselves between levels");
@@ -180,7 +183,7 @@ public:
             throw;
         }
         write_overview();
-        listener_.progress("done", 1);
+        meter_.end();
         return std::move(result_);
     }
 
@@ -188,7 +191,7 @@ private:
     std::filesystem::path path_of(const std::string& name) const { return case_.directory / name; }
 
     void begin() {
-        listener_.progress("initial cap", 0);
+        enter_stage("initial cap");
         StageClock clock;
         Domain<D> domain = initial_domain<D>(case_, {}, listener_, clock);
         initial_ = report_of_initial(domain.mesh, clock);
@@ -208,7 +211,6 @@ private:
             listener_.warning(
                 fmt::format("the case file is not what it was when {} was written", path.string()));
         }
-        listener_.progress(fmt::format("going on from t = {}", checkpoint.state.time), 0);
         start(std::move(checkpoint.state));
         journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
         journal_->each_line([this](const std::string& line) { // the first slab of few layers was told of
@@ -231,17 +233,18 @@ private:
     void run_slab() {
         const double time = march_->state().time;
         const int number = march_->state().slab;
-        listener_.progress(fmt::format("slab {} from t = {:.6g}", number, time),
-                           (time - case_.start) / (case_.end - case_.start));
+        meter_.begin_slab(number, time, case_.slab_end(time));
         StageClock clock;
         auto [slab, filled] = build_and_fill(clock);
+        meter_.hull_built(slab.hull.cells.size());
         warn_of_layers(slab);
         warn_of_halvings(slab);
         SlabFiles files;
         begin_writing(slab, filled, files); // the disk is slow: it works while the hull is checked
         const SoundHull sound = require_sound_hull<D>(slab.hull, fmt::format("the hull of slab {}", number),
                                                       case_.check_embedding, clock);
-        files.written.get();
+        wait_for_files(files);
+        learn_file_size(files, slab.hull.cells.size());
         if (!journal_) {
             replace_earlier_run();
         }
@@ -260,6 +263,7 @@ private:
         write_checkpoint(
             path_of(checkpoint_name), march_->state(),
             {cap_name(march_->state().slab), files.cap_checksum, journal_->size(), case_.checksum});
+        meter_.end_slab(clock);
     }
 
     /// The first slab is complete and takes the place of what an earlier run may have left.
@@ -270,10 +274,12 @@ private:
     }
 
     /// Given layers may make more simplices than was meant: warn before minutes go by, with what they take.
-    void warn_of_size(std::size_t layers) const {
+    void expect_size(std::size_t layers) {
         constexpr double many = 5e7;
         const auto facets = march_->state().boundary.facets().size();
         const double simplices = side_simplex_count(facets, layers, case_.split);
+        meter_.expect_seconds((simplices + 2 * static_cast<double>(march_->state().cap.cells.size())) /
+                              simplices_per_second);
         if (!case_.layers_follow_motion() && simplices > many) {
             listener_.warning(fmt::format("slab {}: {} facets in {} layers make a side of {:.2g} simplices; "
                                           "that takes some {:.2g} GB and {:.0f} minutes",
@@ -324,7 +330,7 @@ private:
     Slab<D> build(StageClock& clock, int halvings) {
         const double begin = march_->state().time;
         const double floor = case_.adapt_floor * (case_.end - case_.start) / case_.slabs;
-        warn_of_size(case_.level_times(begin, case_.slab_end(begin)).size() - 1);
+        expect_size(case_.level_times(begin, case_.slab_end(begin)).size() - 1);
         for (double end = case_.slab_end(begin);;) {
             try {
                 std::vector<double> times = case_.level_times(begin, end);
@@ -390,6 +396,7 @@ private:
             return std::nullopt;
         }
         const double before = clock.total();
+        enter_stage("filling");
         Filled filled{march ? fill_slab(slab, clock) : fill_by_tetgen(slab.hull, clock), {}};
         const FillingReport checked = check_filling<D>(columns_of(filled.mesh), &slab.hull);
         clock.book("checking the filling");
@@ -411,13 +418,30 @@ private:
     }
 
     void begin_writing(const Slab<D>& slab, const std::optional<Filled>& filled, SlabFiles& files) {
+        files.stage.emplace(
+            "writing",
+            static_cast<std::uint64_t>(file_bytes_per_cell_ * static_cast<double>(slab.hull.cells.size())));
         files.written = std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred,
-                                   watched_as_here([this, &slab, &filled, &files] {
+                                   files.stage->counted([this, &slab, &filled, &files] {
                                        write(slab, files);
                                        if (filled) {
                                            write(filled->mesh, files);
                                        }
                                    }));
+    }
+
+    /// Throws what went wrong with them.
+    void wait_for_files(SlabFiles& files) {
+        files.stage->show();
+        while (files.written.wait_for(std::chrono::milliseconds{20}) == std::future_status::timeout) {
+            go_on();
+        }
+        files.written.get();
+    }
+
+    /// The next slab's files will be about as large.
+    void learn_file_size(const SlabFiles& files, std::size_t cells) {
+        file_bytes_per_cell_ = static_cast<double>(files.stage->done()) / static_cast<double>(cells);
     }
 
     void write(const Filling<D>& filling, SlabFiles& files) const {
@@ -544,6 +568,9 @@ private:
 
     const Case& case_;
     const Listener& listener_;
+    ProgressMeter meter_;
+    ProgressScope watched_;
+    double file_bytes_per_cell_ = 0; ///< in the last slab
     std::optional<March<D>> march_;
     std::optional<Journal> journal_; ///< there from the first slab on
     Json initial_;

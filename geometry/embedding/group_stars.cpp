@@ -5,6 +5,7 @@
 #include "geometry/embedding/rounding.h"
 
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/progress.h"
 #include "slabhull/core/vector.h"
 #include "slabhull/geometry/measures.h"
 
@@ -369,11 +370,13 @@ std::array<float, D + 1> GroupStars<D>::group_normal(std::size_t group) const {
 template<int D>
 std::vector<char> GroupStars<D>::prove(std::span<const Index> vertices) const {
     std::vector<char> proven(vertices.size());
+    expect_work(vertices.size());
     parallel_for(vertices.size(), 1024, [&](std::size_t begin, std::size_t end) {
         StarProof<D> proof{*this};
         for (std::size_t k = begin; k < end; ++k) {
             proven[k] = proof.holds(vertices[k]);
         }
+        work_done(end - begin);
     });
     return proven;
 }

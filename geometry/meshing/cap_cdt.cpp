@@ -38,6 +38,7 @@ CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
     const std::span<const Point<2>> points{surface.points};
     const SizeField<2> field{points, boundary_spacing<2>(points, surface.facets), options.grading};
     require_countable(field);
+    expect_work(static_cast<std::uint64_t>(cells_per_cube<2> * field.cube_count()));
     refine_delaunay(mesh, {surface, std::cref(field), options.grading.growth}, options.min_angle);
 
     order_along_curve<2>(mesh, surface.points.size());

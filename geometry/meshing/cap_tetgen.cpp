@@ -6,6 +6,8 @@
 
 #include "geometry/meshing/hole_seeds.h"
 
+#include "slabhull/core/progress.h"
+
 #include <fmt/format.h>
 #include <tetgen.h>
 
@@ -35,10 +37,19 @@ double squared_distance(const REAL* p, const REAL* q) {
     return x * x + y * y + z * z;
 }
 
+/// Counts the mesh's cells so far: TetGen asks about four tetrahedra for each three that it keeps.
+void count_call() {
+    static int calls = 0;
+    if (++calls % 4 == 0) {
+        work_done(3);
+    }
+}
+
 /// Whether to split a tetrahedron for its size. TetGen passes a volume of 0, so use the corners. (Its own
 /// method, a size per boundary vertex, interpolates between opposite walls and knows neither growth nor a
 /// largest size.)
 bool too_large(REAL* a, REAL* b, REAL* c, REAL* d, REAL*, REAL) {
+    count_call();
     const std::array<const REAL*, 4> corners{a, b, c, d};
     Point<3> centroid{};
     double longest = 0;

@@ -246,6 +246,7 @@ private:
         cavity_.fill(p);
         spacing_.push_back(spacing);
         moves_.push_back(0);
+        work_done(2); // a point makes two cells more
         version_.resize(mesh_.cells.size(), 0);
         for (const Index cell : cavity_.cells()) {
             ++version_[cell];

@@ -106,6 +106,7 @@ void AtomicFile::advance(std::size_t size) {
         checksum_->add(blocks_->room().data(), size);
     }
     blocks_->advance(size);
+    work_done(size);
     check_blocks();
     go_on();
 }

@@ -12,18 +12,19 @@ docs/python.md says what is a view, what is copied, and how long it lives.
 import os as _os
 
 from . import _slabhull
-from ._slabhull import (Case, Domain, Filling, FillingSection, Hull, March, Mesh, Motion, Projection, Section, Slab,
+from ._slabhull import (Case, Domain, Filling, FillingSection, Hull, March, Mesh, Motion, Progress, Projection, Section, Slab,
                         SpatialMesh, TrackMotion, __version__, cylinder, ellipsoid, expansion, experiment_names,
                         formula, plane, read_filling, read_hull, read_mesh, rotation, sequence, set_thread_count,
                         sphere, thread_count, track_motion, translation)
 from .errors import (Entity, Error, FormatLimit, GeometryError, InputError, Interrupted, LimitError, OutputError,
                      TangledBoundary, TooManyLayers, UsageError)
 from .exchange import to_meshio, to_vtk
+from .progress import ProgressBar
 from .report import Finding, Report, report_of as _report_of
 
 __all__ = ["Case", "Domain", "Entity", "Error", "Filling", "FillingSection", "Finding", "FormatLimit",
            "GeometryError", "Hull", "InputError", "Interrupted", "LimitError", "March", "Mesh", "Motion",
-           "OutputError", "Projection", "Report", "Section", "Slab", "SpatialMesh", "TangledBoundary",
+           "OutputError", "Progress", "ProgressBar", "Projection", "Report", "Section", "Slab", "SpatialMesh", "TangledBoundary",
            "TooManyLayers", "TrackMotion", "UsageError", "check", "check_arrays", "cylinder", "ellipsoid",
            "expansion", "experiment_names", "fill", "formula", "plane", "read", "read_filling", "read_hull",
            "read_mesh", "rotation", "sequence", "set_thread_count", "slice", "sphere", "thread_count", "to_meshio",

@@ -10,9 +10,30 @@ from numpy.typing import ArrayLike, NDArray
 __version__: str
 
 _Path = Union[str, PathLike[str]]
-_Progress = Optional[Callable[[str, Optional[float]], Optional[bool]]]
+_Progress = Optional[Callable[["Progress"], Optional[bool]]]
 _Velocity = Callable[[NDArray[float64], float], ArrayLike]
 _Told = Tuple[str, str, List[Tuple[str, list, str]], List[str], int, str]
+
+class Progress:
+    @property
+    def stage(self) -> str: ...
+    @property
+    def stage_share(self) -> Optional[float]: ...
+    @property
+    def slab(self) -> Optional[int]: ...
+    @property
+    def slabs(self) -> int: ...
+    @property
+    def share(self) -> float: ...
+    @property
+    def cells(self) -> int: ...
+    @property
+    def cells_per_second(self) -> float: ...
+    @property
+    def seconds(self) -> float: ...
+    @property
+    def seconds_left(self) -> Optional[float]: ...
+
 
 class Motion:
     @property

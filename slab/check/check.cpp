@@ -5,6 +5,7 @@
 #include "slab/check/check_shape.h"
 #include "slab/check/hull_view.h"
 #include "slabhull/core/memory.h"
+#include "slabhull/core/progress.h"
 #include "slabhull/core/vector.h"
 #include "slabhull/slab/hull_columns.h"
 #include "slabhull/topology/homology.h"
@@ -29,6 +30,7 @@ public:
 
     HullReport run() {
         report_.dimension = D;
+        enter_stage("checking", view_.points().size() + view_.cells().size()); // stars, then cells
         give_back_freed_memory(); // memory used to build the hull
         check_column_lengths(view_.hull, findings_);
         if (!check_indices<D>(view_.cells(), view_.points().size(), findings_)) {

@@ -4,6 +4,7 @@
 #include "core/pieces.h"
 
 #include "slab/check/check_shape.h"
+#include "slabhull/core/progress.h"
 #include "slabhull/core/vector.h"
 
 #include <cmath>
@@ -51,6 +52,7 @@ CellSurvey<D> survey_cells(const HullView<D>& view, double sign) {
         parallel_pieces<PieceOfSurvey<D>>(view.cells().size(), cells_per_piece,
                                           [&](std::size_t begin, std::size_t end, PieceOfSurvey<D>& piece) {
                                               survey_piece(view, sign, begin, end, piece);
+                                              work_done(end - begin);
                                           });
     CellSurvey<D> survey;
     std::array<MeasureSums<D>, 3> sums;

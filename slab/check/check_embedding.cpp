@@ -3,6 +3,7 @@
 
 #include "slab/check/findings.h"
 
+#include "slabhull/core/progress.h"
 #include "slabhull/geometry/hull_embedding.h"
 #include "slabhull/topology/adjacency.h"
 
@@ -88,6 +89,7 @@ std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, cons
                                    "pairs, which was not asked for");
         return {};
     }
+    enter_stage("embedding");
     const HullEmbedding<D> found = examine(hull, report.table_confirmed);
     const CrossingNames<D> names{hull, findings};
     for (const Crossing<D + 1>& crossing : found.crossings) {

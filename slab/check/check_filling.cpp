@@ -298,6 +298,7 @@ FillingColumns<D> columns_of(const Filling<D>& filling) {
 template<int D>
 FillingReport check_filling(const FillingColumns<D>& filling, const Hull<D>* hull,
                             const CheckOptions& options) {
+    enter_stage("checking the filling");
     return FillingCheck<D>{filling, hull, options}.run();
 }
 

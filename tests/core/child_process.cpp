@@ -291,7 +291,7 @@ TEST_CASE("a child can allocate, whatever other threads were allocating when it 
     for (int round = 0; round < 20; ++round) {
         const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds{30};
         const ProgressScope limit{
-            [&](const std::string&) { return std::chrono::steady_clock::now() < deadline; }};
+            [&](const WorkState&) { return std::chrono::steady_clock::now() < deadline; }};
         std::vector<std::jthread> others;
         for (int k = 0; k < 3; ++k) {
             others.emplace_back(allocate);

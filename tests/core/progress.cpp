@@ -26,7 +26,7 @@ void work_for(std::chrono::milliseconds span) {
 
 /// Goes on for some questions, then not.
 Progress patience(int questions) {
-    return [left = questions](const std::string&) mutable { return left-- > 0; };
+    return [left = questions](const WorkState&) mutable { return left-- > 0; };
 }
 
 } // namespace
@@ -76,14 +76,67 @@ TEST_CASE("scopes: an inner one asks the outer one, an empty one asks nobody, an
 TEST_CASE("the stage is told when it is entered") {
     std::vector<std::string> told;
     {
-        const ProgressScope scope{[&told](const std::string& stage) {
-            told.push_back(stage);
+        const ProgressScope scope{[&told](const WorkState& state) {
+            told.push_back(state.stage);
             return true;
         }};
         enter_stage("first");
         enter_stage("second");
     }
     CHECK(told == std::vector<std::string>{"first", "second"});
+}
+
+TEST_CASE("what a stage has done is counted on all threads, in child processes, and for all scopes") {
+    WorkState outer_state;
+    WorkState inner_state;
+    const auto keep = [](WorkState& place) {
+        return [&place](const WorkState& state) {
+            place = state;
+            return true;
+        };
+    };
+    const ProgressScope outer{keep(outer_state)};
+    const ProgressScope inner{keep(inner_state)};
+    enter_stage("counted", 100);
+    CHECK(inner_state.share() == 0);
+    parallel_for(40, 1, [](std::size_t begin, std::size_t end) { work_done(end - begin); });
+    CHECK(ask_child([] {
+              work_done(5);
+              enter_stage("the child's own"); // is not the parent's
+              work_done(1000);
+              return std::string{};
+          }).end.received);
+    work_for(std::chrono::milliseconds{60});
+    go_on();
+    for (const WorkState* state : {&inner_state, &outer_state}) {
+        CHECK(state->stage == "counted");
+        CHECK(state->done == 45);
+        CHECK(state->share() == 0.45);
+    }
+    expect_work(30);
+    enter_stage("counts nothing");
+    CHECK_FALSE(inner_state.share());
+    CHECK(inner_state.done == 0);
+}
+
+TEST_CASE("a stage in the background is counted apart, and shown when asked for") {
+    WorkState told;
+    const ProgressScope scope{[&told](const WorkState& state) {
+        told = state;
+        return true;
+    }};
+    enter_stage("in front", 10);
+    const BackgroundStage behind{"behind", 4};
+    std::thread{behind.counted([] { work_done(3); })}.join();
+    work_done(1);
+    work_for(std::chrono::milliseconds{60});
+    go_on();
+    CHECK(told.stage == "in front");
+    CHECK(told.done == 1);
+    behind.show();
+    CHECK(told.stage == "behind");
+    CHECK(told.share() == 0.75);
+    CHECK(behind.done() == 3);
 }
 
 TEST_CASE("a child that says nothing is ended") {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of hulls, fillings and meshes; cases; other libraries; the program; the examples."""
+import io
 import os
 import subprocess
 import sys
@@ -162,15 +163,19 @@ class Cases(harness.PythonTest):
     def test_a_run_tells_its_progress_and_can_be_stopped_and_resumed(self):
         told = []
 
-        def stop_in_second(text, share):
-            told.append((text, share))
-            return "slab 1" not in text
+        def stop_in_second(progress):
+            told.append((progress.share, progress.cells, progress.stage))
+            return progress.slab != 1
 
         case = slabhull.Case(CIRCLE)
         with self.assertRaises(slabhull.Interrupted):
             case.run(out=self.dir / "out", on_progress=stop_in_second)
-        self.assertIn(0.5, [share for text, share in told])
-        summary = case.run(out=self.dir / "out", resume=True)
+        shares = [share for share, cells, stage in told]
+        self.assertEqual(shares, sorted(shares))
+        self.assertGreater(told[-1][1], 0)
+        self.assertLessEqual({"cap meshing", "checking"}, {stage for share, cells, stage in told})
+        with slabhull.ProgressBar(io.StringIO()) as bar:
+            summary = case.run(out=self.dir / "out", resume=True, on_progress=bar)
         self.assertEqual(summary["slabs"], 1)
         self.assertTrue(slabhull.check(self.dir / "out" / "slab_0001.vtu").clean)
 

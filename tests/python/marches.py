@@ -140,13 +140,13 @@ class Marches(harness.PythonTest):
     def test_progress_is_told_and_may_stop(self):
         told = []
         march = slabhull.March(domain(3), motions={"body": swing},
-                               on_progress=lambda text, share: told.append((text, share)))
+                               on_progress=lambda progress: told.append(progress.stage))
         march.propose(LEVELS)
-        self.assertIn("cap meshing", [text for text, share in told])
-        march.on_progress = lambda text, share: False
+        self.assertIn("cap meshing", told)
+        march.on_progress = lambda progress: False
         with self.assertRaises(slabhull.Interrupted):
             march.propose(LEVELS)
-        march.on_progress = lambda text, share: 1 / 0
+        march.on_progress = lambda progress: 1 / 0
         with self.assertRaises(ZeroDivisionError):
             march.propose(LEVELS)
         march.on_progress = None

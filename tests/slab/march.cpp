@@ -309,11 +309,11 @@ TEMPLATE_TEST_CASE_SIG("a march that is stopped in any stage is as before", "", 
     const Slab<D> expected = march.propose(times);
     for (const std::string last : {"trajectories", "boundary check", "cap meshing", "stitching"}) {
         std::vector<std::string> stages;
-        march.on_progress([&](const std::string& stage) {
-            if (stages.empty() || stages.back() != stage) {
-                stages.push_back(stage);
+        march.on_progress([&](const WorkState& state) {
+            if (stages.empty() || stages.back() != state.stage) {
+                stages.push_back(state.stage);
             }
-            return stage != last;
+            return state.stage != last;
         });
         StageClock clock;
         CHECK_THROWS_AS(march.build(times, clock), Interrupted);

@@ -49,6 +49,50 @@ class Files(ProgramTest):
         self.assertTrue((out / "slab_0000.msh").exists())
 
 
+class Progress(ProgramTest):
+    def test_json_tells_stages_shares_cells_and_time(self):
+        case = self.case('[initial]\nexperiment = "ellipsoid"\nlevel = 2\n[time]\nslabs = 3\n')
+        shown = slabhull("build", case, "--out", self.dir / "out", "--progress", "json", "--quiet").err
+        lines = [json.loads(line) for line in shown.splitlines()]
+        for line in lines:
+            self.assertEqual(list(line), ["stage", "stage_share", "slab", "slabs", "share", "cells", "cells_per_second",
+                                          "seconds", "seconds_left"])
+        for key in ("share", "cells", "seconds"):
+            told = [line[key] for line in lines]
+            self.assertEqual(told, sorted(told))
+        self.assertEqual(lines[-1]["stage"], "done")
+        self.assertEqual(lines[-1]["share"], 1)
+        self.assertEqual(lines[-1]["seconds_left"], 0)
+        report = json.loads((self.dir / "out/report.json").read_text())
+        self.assertEqual(lines[-1]["cells"], sum(slab["counts"]["cells"] for slab in report["slabs"]))
+
+    def test_a_line_is_for_terminals_or_those_who_ask(self):
+        out, _ = self.build(self.case(CIRCLE))
+        hull = out / "slab_0000.vtu"
+        self.assertEqual(slabhull("check", hull).err, "")
+        self.assertIn("checking", slabhull("check", hull, "--progress", "line").err)
+        asked = slabhull("check", hull, "--progress", "json")
+        self.assertIn("reading", [json.loads(line)["stage"] for line in asked.err.splitlines()])
+        self.assertEqual(asked.out, slabhull("check", hull).out)
+
+
+class Report(ProgramTest):
+    def test_all_its_keys_are_described(self):
+        case = '[initial]\nexperiment = "circle"\nlevel = 1\n[cap]\nreuse = "%s"\n[fill]\n'
+        text = (ROOT / "docs/formats.md").read_text() + (ROOT / "docs/adapt.md").read_text()
+
+        def keys(value):
+            for key, inner in value.items() if isinstance(value, dict) else ():
+                yield key
+                if key not in ("patches", "cells_by_patch", "projection", "defects"):
+                    yield from keys(inner)
+
+        for reuse in ("none", "move", "adapt"):
+            report = self.build(self.case(case % reuse if reuse != "none" else case.split("[cap]")[0]), out=reuse)[1]
+            for slab in [report.pop("slabs")[0], report]:
+                self.assertEqual([key for key in sorted(set(keys(slab))) if f"`{key}`" not in text], [])
+
+
 def vtk_arrays(path):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader

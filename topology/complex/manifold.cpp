@@ -4,6 +4,7 @@
 #include "core/pieces.h"
 #include "core/scratch_pool.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/progress.h"
 #include "slabhull/topology/cell_stretches.h"
 #include "topology/complex/cell_lists.h"
 #include "topology/complex/facet_pairing.h"
@@ -314,6 +315,7 @@ private:
             cells += in_stars;
             link_vertices += in_links;
             counters_.give_back(std::move(stars));
+            work_done(end - begin);
         });
         survey.cells += cells;
         survey.link_vertices += link_vertices;

@@ -67,7 +67,7 @@ public:
     void on_progress(Progress progress) { progress_ = progress ? std::move(progress) : goes_on; }
 
 private:
-    static bool goes_on(const std::string&) { return true; }
+    static bool goes_on(const WorkState&) { return true; }
     void require_times(const std::vector<double>& times) const;
     /// Identifies the initial cap; -1 if it has no vertices.
     PersistentId first_id() const { return state_.cap.vertex_ids.empty() ? -1 : state_.cap.vertex_ids[0]; }
