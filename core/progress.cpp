@@ -65,8 +65,12 @@ private:
 
 class ProgressWatch {
 public:
-    ProgressWatch(Progress progress, std::shared_ptr<ProgressWatch> outer)
-        : progress_{std::move(progress)}, outer_{std::move(outer)} {}
+    ProgressWatch(Progress progress, std::shared_ptr<ProgressWatch> outer, bool shows = true)
+        : progress_{std::move(progress)}, outer_{std::move(outer)}, shows_{shows &&
+                                                                           (!outer_ || outer_->shows_)} {}
+
+    /// Whether stages are shown: not those of work in the background.
+    bool shows() const { return shows_; }
 
     void enter(const std::string& stage, const std::shared_ptr<StageCount>& count) {
         {
@@ -111,6 +115,7 @@ private:
 
     Progress progress_;
     std::shared_ptr<ProgressWatch> outer_;
+    bool shows_;
     std::mutex lock_;
     std::string stage_;
     std::shared_ptr<StageCount> count_;
@@ -140,6 +145,9 @@ ProgressScope::ProgressScope(Progress progress)
 
 void enter_stage(const std::string& stage, std::uint64_t expected) {
     auto& [watch, count] = detail::watched;
+    if (watch && !watch->shows()) {
+        return go_on(); // all is counted for the stage in the background
+    }
     count = watch ? std::make_shared<detail::StageCount>(expected) : nullptr;
     if (watch) {
         watch->enter(stage, count);
@@ -162,8 +170,14 @@ void work_done(std::uint64_t count) {
 BackgroundStage::BackgroundStage(std::string stage, std::uint64_t expected)
     : stage_{std::move(stage)}, count_{std::make_shared<detail::StageCount>(expected)} {}
 
+detail::Watched BackgroundStage::watched_behind() const {
+    const auto goes_on = [](const WorkState&) { return true; };
+    constexpr bool shows = false;
+    return {std::make_shared<detail::ProgressWatch>(goes_on, detail::watched.watch, shows), count_};
+}
+
 void BackgroundStage::show() const {
-    if (detail::watched.watch) {
+    if (detail::watched.watch && detail::watched.watch->shows()) {
         detail::watched.count = count_;
         detail::watched.watch->enter(stage_, count_);
     }

@@ -7,6 +7,7 @@
 #include "slabhull/cases/report.h"
 #include "slabhull/core/error.h"
 #include "slabhull/io/atomic_file.h"
+#include "slabhull/slab/caps_ahead.h"
 #include "slabhull/slab/slab.h"
 #include "slabhull/slab/sound_hull.h"
 #include "slabhull/study/exact_measures.h"
@@ -74,16 +75,34 @@ void write(const std::filesystem::path& path, const auto& hull) {
     files.commit();
 }
 
+/// The slab of an experiment, both of its caps meshed at once.
+template<int D>
+Slab<D> build_experiment(const Case& the_case, const std::vector<double>& times, Boundary<D>& boundary,
+                         StageClock& clock) {
+    std::optional<CapsAhead<D>> ahead;
+    Domain<D> domain = initial_domain<D>(the_case, {}, {}, clock, [&](const SpatialMesh<D>& mesh) {
+        const Boundary<D> alone = boundary_of(mesh);
+        ahead.emplace(alone, mesh, times.front(), settings_of<D>(the_case, alone), [&times](double begin) {
+            return begin < times.back() ? times : std::vector<double>{};
+        });
+    });
+    boundary = boundary_of(domain.mesh);
+    std::optional<PreparedSlab<D>> prepared = ahead->take(boundary, times);
+    clock.book("waiting for caps");
+    ahead.reset();
+    const auto settings = settings_of<D>(the_case, boundary);
+    return prepared ? build_slab<D>(std::move(domain.mesh), boundary, 0, *std::move(prepared), settings,
+                                    domain.ids, clock)
+                    : build_slab<D>(std::move(domain.mesh), boundary, 0, times, settings, domain.ids, clock);
+}
+
 template<int D>
 StudyRow study(const Case& the_case, const std::optional<std::filesystem::path>& hull_file) {
     StudyRow row = row_for(the_case);
     StageClock clock;
-    IdCounter ids;
-    SpatialMesh<D> initial = initial_cap<D>(the_case, ids, {}, clock);
-    const Boundary<D> boundary = boundary_of(initial);
-    const auto settings = settings_of<D>(the_case, boundary);
     const std::vector<double> times = the_case.level_times(0);
-    const Slab<D> slab = build_slab<D>(std::move(initial), boundary, 0, times, settings, ids, clock);
+    Boundary<D> boundary;
+    const Slab<D> slab = build_experiment<D>(the_case, times, boundary, clock);
     row.layers = times.size() - 1;
     row.boundary_facets = boundary.facet_count();
     row.centres = slab.hull.side_points - boundary.vertex_count() * (row.layers - 1);

@@ -3,7 +3,11 @@
 
 #include "slabhull/cases/case.h"
 #include "slabhull/core/message.h"
+#include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/slab/domain.h"
 #include "slabhull/topology/spatial_mesh.h"
+
+#include <utility>
 
 namespace slabhull {
 
@@ -12,5 +16,14 @@ namespace slabhull {
 /// name for a body and the outer boundary. Throws InputError naming file and facets.
 template<int D>
 Surface<D> boundary_of_bodies(const InitialBodies& bodies, const Listener& listener);
+
+/// A domain with this boundary, as far as the boundary goes: facets, patches and tracks are what
+/// make_domain() will give them; there are no cells and no points inside.
+template<int D>
+SpatialMesh<D> boundary_alone(Surface<D> surface) {
+    CapMesh<D> without_cells;
+    without_cells.points = surface.points;
+    return make_domain<D>(std::move(without_cells), std::move(surface)).mesh;
+}
 
 } // namespace slabhull

@@ -23,11 +23,15 @@ std::vector<std::string> patches_with_motions(const Case& the_case) {
 
 template<int D>
 Domain<D> mesh_bodies(const InitialBodies& bodies, const CapOptions& options, const IdCounter& ids,
-                      const Listener& listener, StageClock& clock) {
+                      const Listener& listener, StageClock& clock,
+                      const std::function<void(const SpatialMesh<D>&)>& on_boundary) {
     Surface<D> surface = boundary_of_bodies<D>(bodies, listener);
     clock.book("initial boundary");
     require_domain_boundary(surface, {"initial boundary", {}}, true);
     clock.book(boundary_check_stage);
+    if (on_boundary) {
+        on_boundary(boundary_alone<D>(surface));
+    }
     CapMesh<D> cap = mesh_cap<D>(surface, options);
     clock.book(cap_meshing_stage);
     return make_domain<D>(std::move(cap), std::move(surface), ids);
@@ -37,7 +41,7 @@ Domain<D> mesh_bodies(const InitialBodies& bodies, const CapOptions& options, co
 
 template<int D>
 Domain<D> initial_domain(const Case& the_case, const IdCounter& ids, const Listener& listener,
-                         StageClock& clock) {
+                         StageClock& clock, const std::function<void(const SpatialMesh<D>&)>& on_boundary) {
     if (const auto* file = std::get_if<InitialMesh>(&the_case.initial)) {
         const io::Soup soup = io::read_mesh(file->file, file->reading);
         clock.book("reading");
@@ -50,7 +54,7 @@ Domain<D> initial_domain(const Case& the_case, const IdCounter& ids, const Liste
         return domain;
     }
     return mesh_bodies<D>(std::get<InitialBodies>(the_case.initial), cap_options(the_case), ids, listener,
-                          clock);
+                          clock, on_boundary);
 }
 
 template<int D>
@@ -61,8 +65,10 @@ SpatialMesh<D> initial_cap(const Case& the_case, IdCounter& ids, const Listener&
     return std::move(domain.mesh);
 }
 
-template Domain<2> initial_domain<2>(const Case&, const IdCounter&, const Listener&, StageClock&);
-template Domain<3> initial_domain<3>(const Case&, const IdCounter&, const Listener&, StageClock&);
+template Domain<2> initial_domain<2>(const Case&, const IdCounter&, const Listener&, StageClock&,
+                                     const std::function<void(const SpatialMesh<2>&)>&);
+template Domain<3> initial_domain<3>(const Case&, const IdCounter&, const Listener&, StageClock&,
+                                     const std::function<void(const SpatialMesh<3>&)>&);
 template SpatialMesh<2> initial_cap<2>(const Case&, IdCounter&, const Listener&, StageClock&);
 template SpatialMesh<3> initial_cap<3>(const Case&, IdCounter&, const Listener&, StageClock&);
 

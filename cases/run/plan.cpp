@@ -12,7 +12,6 @@
 #include "slabhull/slab/stitch.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace slabhull {
@@ -21,28 +20,21 @@ namespace {
 
 /// The domain at the start as far as its boundary goes; `cells` are there if a file has them.
 template<int D>
-SpatialMesh<D> boundary_alone(const Case& the_case, const Listener& listener) {
+SpatialMesh<D> starting_boundary(const Case& the_case, const Listener& listener) {
     if (std::holds_alternative<InitialMesh>(the_case.initial)) {
         StageClock clock;
         return initial_domain<D>(the_case, {}, listener, clock).mesh;
     }
     Surface<D> surface = boundary_of_bodies<D>(std::get<InitialBodies>(the_case.initial), listener);
     require_domain_boundary(surface, {"initial boundary", {}}, true);
-    SpatialMesh<D> mesh;
-    mesh.track_ids.resize(surface.points.size());
-    std::iota(mesh.track_ids.begin(), mesh.track_ids.end(), TrackId{0});
-    mesh.points = std::move(surface.points);
-    mesh.boundary_facets = std::move(surface.facets);
-    mesh.boundary_patch = std::move(surface.patch);
-    mesh.patches = std::move(surface.patches);
-    return mesh;
+    return boundary_alone<D>(std::move(surface));
 }
 
 template<int D>
 class Planner {
 public:
     Planner(const Case& the_case, const Listener& listener)
-        : case_{the_case}, mesh_{boundary_alone<D>(the_case, listener)}, boundary_{boundary_of(mesh_)},
+        : case_{the_case}, mesh_{starting_boundary<D>(the_case, listener)}, boundary_{boundary_of(mesh_)},
           settings_{settings_of<D>(the_case, boundary_)} {}
 
     CasePlan run() {

@@ -29,40 +29,40 @@ Progress ProgressMeter::watch() {
 
 void ProgressMeter::begin_slab(int slab, double begin, double end) {
     const std::lock_guard guard{lock_};
+    if (run_.slab) { // the one before took so long, with what was done beside it
+        expected_seconds_ = since_slab_.seconds();
+    }
     run_.slab = slab;
     slab_begin_ = begin;
     slab_end_ = end;
     in_stages_ = 0;
     stage_.clear();
     since_slab_ = {};
-    hull_cells_ = 0;
 }
 
 void ProgressMeter::expect_seconds(double seconds) {
     const std::lock_guard guard{lock_};
-    if (expected_.empty()) {
+    if (expected_seconds_ == 0) {
         expected_seconds_ = seconds;
     }
 }
 
 void ProgressMeter::hull_built(std::uint64_t cells) {
     const std::lock_guard guard{lock_};
-    hull_cells_ = cells;
+    hull_cells_ += cells;
 }
 
 void ProgressMeter::end_slab(const StageClock& clock) {
     const std::lock_guard guard{lock_};
     expected_ = clock.stages();
-    expected_seconds_ = since_slab_.seconds();
-    finished_cells_ += hull_cells_;
-    hull_cells_ = 0;
+    stage_seconds_ = clock.total();
 }
 
 void ProgressMeter::end() {
     const std::lock_guard guard{lock_};
     run_.work = {"done", 0, 0};
     run_.share = 1;
-    run_.cells = finished_cells_;
+    run_.cells = hull_cells_;
     run_.seconds = since_begin_.seconds();
     run_.seconds_left = 0;
     listener_.progress(run_);
@@ -75,8 +75,8 @@ void ProgressMeter::tell(const WorkState& work) {
         since_stage_ = {};
     }
     run_.work = work;
-    const std::uint64_t in_slab = work.stage == cap_meshing_stage ? work.done : 0;
-    run_.cells = std::max(run_.cells, finished_cells_ + std::max(hull_cells_, in_slab));
+    const std::uint64_t of_cap = work.stage == cap_meshing_stage ? work.done : 0;
+    run_.cells = std::max(run_.cells, hull_cells_ + of_cap);
     run_.seconds = since_begin_.seconds();
     run_.seconds_left = seconds_left(work);
     if (run_.seconds_left) {
@@ -100,10 +100,11 @@ std::optional<double> ProgressMeter::seconds_left(const WorkState& work) const {
         return std::min(seconds, nearly_done * expected);
     };
     double passed = passed_of(since_slab_.seconds(), expected_seconds_);
-    if (!expected_.empty()) {
+    if (stage_seconds_ > 0) { // some of them beside others, so that they are longer than the slab
         const double expected = expected_of(stage_);
         const std::optional<double> share = work.share();
-        passed = in_stages_ + (share ? *share * expected : passed_of(since_stage_.seconds(), expected));
+        const double in_stage = share ? *share * expected : passed_of(since_stage_.seconds(), expected);
+        passed = std::max(passed, (in_stages_ + in_stage) / stage_seconds_ * expected_seconds_);
     }
     const double slabs_left = (end_ - slab_end_) / (slab_end_ - slab_begin_);
     return std::max(0.0, expected_seconds_ - passed) + slabs_left * expected_seconds_;

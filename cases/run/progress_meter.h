@@ -27,11 +27,11 @@ public:
 
     /// A slab is begun that goes to time `end`.
     void begin_slab(int slab, double begin, double end);
-    /// What the slab at hand takes, unless an earlier one has shown it.
+    /// What a slab takes, unless an earlier one has shown it.
     void expect_seconds(double seconds);
-    /// The slab at hand has a hull of so many cells.
+    /// Another hull is there, of so many cells.
     void hull_built(std::uint64_t cells);
-    /// The slab at hand is finished.
+    /// A slab is finished, maybe while the next one is built.
     void end_slab(const StageClock& clock);
     /// The run is finished.
     void end();
@@ -49,9 +49,9 @@ private:
     Stopwatch since_begin_;
     double slab_begin_;
     double slab_end_;
-    std::uint64_t finished_cells_ = 0;                     ///< of slabs before the one at hand
-    std::uint64_t hull_cells_ = 0;                         ///< of the slab at hand; 0 until its hull is there
+    std::uint64_t hull_cells_ = 0;                         ///< of all hulls so far
     std::vector<std::pair<std::string, double>> expected_; ///< the last slab's stages with their seconds
+    double stage_seconds_ = 0;                             ///< their sum; 0: not known
     double expected_seconds_ = 0;                          ///< of a slab; 0: not known
     Stopwatch since_slab_;
     std::string stage_;

@@ -12,10 +12,12 @@
 #include "slabhull/cases/initial.h"
 #include "slabhull/cases/settings.h"
 #include "slabhull/core/error.h"
+#include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/progress.h"
 #include "slabhull/core/version.h"
 #include "slabhull/io/files.h"
+#include "slabhull/slab/caps_ahead.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/check_filling.h"
 #include "slabhull/slab/fill.h"
@@ -25,10 +27,13 @@
 #include "slabhull/slab/tangling.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
 #include <future>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace slabhull {
@@ -36,6 +41,8 @@ namespace slabhull {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* waiting_stage = "waiting for caps";
 
 Json seconds_as_json(const StageClock& clock) {
     Json seconds = Json::object();
@@ -51,12 +58,12 @@ Json shares_as_json(const StageClock& clock) {
     double all = 0;
     for (const auto& [stage, passed] : clock.stages()) {
         meshing += stage == cap_meshing_stage ? passed : 0;
-        all += passed;
+        all += stage == waiting_stage ? 0 : passed;
     }
     Json shares = Json::object();
     if (meshing > 0) {
         for (const auto& [stage, passed] : clock.stages()) {
-            if (stage != cap_meshing_stage) {
+            if (stage != cap_meshing_stage && stage != waiting_stage) {
                 shares[stage] = passed / meshing;
             }
         }
@@ -133,6 +140,16 @@ Json settings_as_json(const Case& the_case) {
             {"check_embedding", the_case.check_embedding}};
 }
 
+/// A march's state without the cap's cells: what a checkpoint says of it.
+template<int D>
+MarchState<D> state_without_cells(const MarchState<D>& state) {
+    MarchState<D> copy{{}, state.time, state.slab, state.ids, state.boundary};
+    copy.cap.patches = state.cap.patches;
+    copy.cap.boundary_facets = state.cap.boundary_facets;
+    copy.cap.boundary_patch = state.cap.boundary_patch;
+    return copy;
+}
+
 /// The files of a slab while they are being written. Without commit they vanish.
 struct SlabFiles {
     io::AtomicFiles open;
@@ -172,6 +189,7 @@ public:
             while (march_->state().time < case_.end) {
                 run_slab();
             }
+            settle();
         } catch (const Error&) {
             if (result_.files.size() > before) {
                 const ProgressScope to_the_end{{}};
@@ -193,7 +211,9 @@ private:
     void begin() {
         enter_stage("initial cap");
         StageClock clock;
-        Domain<D> domain = initial_domain<D>(case_, {}, listener_, clock);
+        Domain<D> domain = initial_domain<D>(case_, {}, listener_, clock, [this](const SpatialMesh<D>& mesh) {
+            prepare(boundary_of(mesh), mesh, case_.start);
+        });
         initial_ = report_of_initial(domain.mesh, clock);
         start(march_from<D>(std::move(domain), case_.start));
     }
@@ -211,39 +231,110 @@ private:
             listener_.warning(
                 fmt::format("the case file is not what it was when {} was written", path.string()));
         }
-        start(std::move(checkpoint.state));
         journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
-        journal_->each_line([this](const std::string& line) { // the first slab of few layers was told of
+        journal_->each_line([this](const std::string& line) {
             const Json slab = Json::parse(line);
-            if (slab.contains("layers") && slab["layers"].contains("sound") &&
-                !slab["layers"]["sound"].get<bool>()) {
-                march_->settings().layers.suggest = false;
-            }
+            told_of_layers_ =
+                told_of_layers_ || (slab.contains("layers") && slab["layers"].contains("sound") &&
+                                    !slab["layers"]["sound"].get<bool>());
         });
+        start(std::move(checkpoint.state));
         return true;
     }
 
     void start(MarchState<D>&& state) {
-        CaseSettings<D> settings = case_settings<D>(case_, state.boundary);
+        prepare(state.boundary, state.cap, state.time);
         patches_ = state.cap.patches;
-        matches_ = std::move(settings.matches);
-        march_.emplace(std::move(state), std::move(settings.slab));
+        march_.emplace(std::move(state), std::move(settings_->slab));
     }
 
+    /// Reads the settings, once there is a boundary, and begins with the caps that follow from that alone.
+    void prepare(const Boundary<D>& boundary, const SpatialMesh<D>& cap, double time) {
+        if (!settings_) {
+            settings_ = case_settings<D>(case_, boundary);
+            settings_->slab.layers.suggest = !told_of_layers_;
+            look_ahead(boundary, cap, time, settings_->slab);
+        }
+    }
+
+    void look_ahead(const Boundary<D>& boundary, const SpatialMesh<D>& cap, double time,
+                    const SlabSettings<D>& settings) {
+        if (case_.cap_reuse != CapReuse::none || thread_count() < 2) {
+            return;
+        }
+        ahead_.emplace(boundary, cap, time, settings, [this](double begin) {
+            return begin < case_.end ? case_.level_times(begin, case_.slab_end(begin))
+                                     : std::vector<double>{};
+        });
+    }
+
+    struct Filled {
+        Filling<D> mesh;
+        Json report;
+    };
+
+    /// A slab on its way to the disk.
+    struct Built {
+        Slab<D> slab;
+        std::optional<Filled> filled;
+        StageClock clock;
+        std::optional<MarchState<D>> after; ///< the march's state after it, if that has gone on already
+    };
+
+    /// Builds a slab, and checks and writes it while the next one is built, where threads and memory allow.
     void run_slab() {
         const double time = march_->state().time;
-        const int number = march_->state().slab;
-        meter_.begin_slab(number, time, case_.slab_end(time));
+        meter_.begin_slab(march_->state().slab, time, case_.slab_end(time));
+        auto built = std::make_shared<Built>();
+        try {
+            std::tie(built->slab, built->filled) = build_and_fill(built->clock);
+        } catch (const Error&) {
+            settle(); // the slab before comes first, and so do its faults
+            throw;
+        }
+        meter_.hull_built(built->slab.hull.cells.size());
+        warn_of_layers(built->slab);
+        warn_of_halvings(built->slab);
+        settle();
+        if (!can_go_on_meanwhile(*built)) {
+            finish(*built);
+            meter_.end_slab(built->clock);
+            return;
+        }
+        march_->accept(built->slab);
+        built->after = state_without_cells(march_->state());
+        finishing_.stage.emplace("checking and writing");
+        finishing_.built = built;
+        finishing_.done =
+            std::async(std::launch::async, finishing_.stage->counted([this, built] { finish(*built); }));
+    }
+
+    /// Whether there is memory for checking this hull and building the next one at once.
+    bool can_go_on_meanwhile(const Built& built) const {
+        const double bytes = 2 * bytes_per_simplex(case_) * static_cast<double>(built.slab.hull.cells.size());
+        return thread_count() > 1 && bytes < static_cast<double>(available_memory());
+    }
+
+    /// Waits until the last slab is on the disk. Throws what went wrong with it.
+    void settle() {
+        if (finishing_.done.valid()) {
+            finishing_.stage->show();
+            const std::shared_ptr<Built> built = std::exchange(finishing_.built, nullptr);
+            wait_for(finishing_.done);
+            meter_.end_slab(built->clock);
+        }
+    }
+
+    /// Checks a slab, puts its files in place, and takes it into journal and checkpoint.
+    void finish(Built& built) {
         StageClock clock;
-        auto [slab, filled] = build_and_fill(clock);
-        meter_.hull_built(slab.hull.cells.size());
-        warn_of_layers(slab);
-        warn_of_halvings(slab);
+        Slab<D>& slab = built.slab;
         SlabFiles files;
-        begin_writing(slab, filled, files); // the disk is slow: it works while the hull is checked
-        const SoundHull sound = require_sound_hull<D>(slab.hull, fmt::format("the hull of slab {}", number),
-                                                      case_.check_embedding, clock);
-        wait_for_files(files);
+        begin_writing(slab, built.filled, files); // the disk is slow: it works while the hull is checked
+        const SoundHull sound = require_sound_hull<D>(
+            slab.hull, fmt::format("the hull of slab {}", slab.hull.slab), case_.check_embedding, clock);
+        files.stage->show();
+        wait_for(files.written);
         learn_file_size(files, slab.hull.cells.size());
         if (!journal_) {
             replace_earlier_run();
@@ -254,16 +345,26 @@ private:
         result_.points += slab.hull.points.size();
         ++result_.slabs;
         clock.book("writing");
-        Json report = report_of(slab, sound, clock);
-        if (filled) {
-            report["fill"] = filled->report;
+        built.clock.add(clock);
+        Json report = report_of(slab, sound, built.clock);
+        if (built.filled) {
+            report["fill"] = built.filled->report;
         }
-        march_->accept(std::move(slab));
+        const std::string cap = cap_name(slab.hull.slab + 1);
+        if (!built.after) {
+            march_->accept(std::move(slab));
+        }
         journal_->append(report.dump());
-        write_checkpoint(
-            path_of(checkpoint_name), march_->state(),
-            {cap_name(march_->state().slab), files.cap_checksum, journal_->size(), case_.checksum});
-        meter_.end_slab(clock);
+        write_checkpoint(path_of(checkpoint_name), built.after ? *built.after : march_->state(),
+                         {cap, files.cap_checksum, journal_->size(), case_.checksum});
+    }
+
+    /// Throws what went wrong with it.
+    static void wait_for(std::future<void>& work) {
+        while (work.wait_for(std::chrono::milliseconds{20}) == std::future_status::timeout) {
+            go_on();
+        }
+        work.get();
     }
 
     /// The first slab is complete and takes the place of what an earlier run may have left.
@@ -288,11 +389,6 @@ private:
                                           simplices / simplices_per_second / 60));
         }
     }
-
-    struct Filled {
-        Filling<D> mesh;
-        Json report;
-    };
 
     /// The slab and its filling, if that is wanted. Layers of an adapted slab that cannot be filled are
     /// halved.
@@ -321,8 +417,30 @@ private:
 
     /// The slab at these levels. What may have to be built again keeps the initial cap.
     Slab<D> build_at(std::vector<double> times, StageClock& clock) {
+        if (std::optional<PreparedSlab<D>> prepared = take_ahead(times, clock)) {
+            return march_->build(*std::move(prepared), clock);
+        }
         return case_.fill && case_.cap_reuse == CapReuse::adapt ? march_->propose(std::move(times), clock)
                                                                 : march_->build(std::move(times), clock);
+    }
+
+    /// The slab at these levels, if it was prepared ahead.
+    std::optional<PreparedSlab<D>> take_ahead(const std::vector<double>& times, StageClock& clock) {
+        constexpr int most_failures = 3;
+        if (!ahead_ && failures_ahead_ < most_failures) {
+            const MarchState<D>& state = march_->state();
+            look_ahead(state.boundary, state.cap, state.time, march_->settings());
+        }
+        if (!ahead_) {
+            return std::nullopt;
+        }
+        std::optional<PreparedSlab<D>> prepared = ahead_->take(march_->state().boundary, times);
+        clock.book(waiting_stage);
+        if (!prepared) {
+            ahead_.reset();
+            ++failures_ahead_;
+        }
+        return prepared;
     }
 
     /// The slab as planned, with given layers halved so often; with time.adapt, cut short before its boundary
@@ -430,15 +548,6 @@ private:
                                    }));
     }
 
-    /// Throws what went wrong with them.
-    void wait_for_files(SlabFiles& files) {
-        files.stage->show();
-        while (files.written.wait_for(std::chrono::milliseconds{20}) == std::future_status::timeout) {
-            go_on();
-        }
-        files.written.get();
-    }
-
     /// The next slab's files will be about as large.
     void learn_file_size(const SlabFiles& files, std::size_t cells) {
         file_bytes_per_cell_ = static_cast<double>(files.stage->done()) / static_cast<double>(cells);
@@ -510,7 +619,7 @@ private:
         for (const Patch& patch : patches_) {
             head["patches"][std::to_string(patch.number)] = patch.name;
         }
-        for (const auto& [patch, match] : matches_) {
+        for (const auto& [patch, match] : settings_->matches) {
             head["displacements"][patch_name(patches_, patch)] = {{"files", match.files},
                                                                   {"vertices", match.vertices},
                                                                   {"tolerance", match.tolerance},
@@ -570,13 +679,24 @@ private:
     const Listener& listener_;
     ProgressMeter meter_;
     ProgressScope watched_;
-    double file_bytes_per_cell_ = 0; ///< in the last slab
+    double file_bytes_per_cell_ = 0;          ///< in the last slab
+    std::optional<CaseSettings<D>> settings_; ///< the march has those of its slabs
     std::optional<March<D>> march_;
     std::optional<Journal> journal_; ///< there from the first slab on
     Json initial_;
     PatchList patches_;
-    std::map<PatchNumber, DisplacementMatch> matches_;
     RunResult result_;
+    bool told_of_layers_ = false; ///< that they are too few
+    std::optional<CapsAhead<D>> ahead_;
+    int failures_ahead_ = 0; ///< slabs that were not as prepared
+
+    /// The last slab, which is being checked and written.
+    struct Finishing {
+        std::optional<BackgroundStage> stage;
+        std::shared_ptr<Built> built;
+        std::future<void> done; ///< last, so that it is waited for before all else goes
+    };
+    Finishing finishing_;
 };
 
 } // namespace

@@ -52,6 +52,14 @@ Slab<D> March<D>::build(std::vector<double> times, StageClock& clock) {
 }
 
 template<int D>
+Slab<D> March<D>::build(PreparedSlab<D> prepared, StageClock& clock) {
+    require_times(prepared.sweep.times);
+    const ProgressScope scope{progress_};
+    return build_slab<D>(std::move(state_.cap), state_.boundary, state_.slab, std::move(prepared), settings_,
+                         state_.ids, clock);
+}
+
+template<int D>
 MarchState<D> state_after(const Boundary<D>& boundary, const Slab<D>& slab) {
     MarchState<D> state{slab.terminating(), slab.hull.time[1], slab.hull.slab + 1, slab.next_ids, {}};
     state.boundary = slab.boundary.value_or(boundary).bounding(state.cap.vertex_ids);
@@ -60,6 +68,12 @@ MarchState<D> state_after(const Boundary<D>& boundary, const Slab<D>& slab) {
 
 template<int D>
 void March<D>::accept(Slab<D>&& slab) {
+    accept(slab);
+    slab.hull = {};
+}
+
+template<int D>
+void March<D>::accept(const Slab<D>& slab) {
     if (slab.hull.slab != state_.slab || slab.hull.time[0] != state_.time || slab.hull.vertex_ids.empty() ||
         slab.hull.vertex_ids[0] != first_id_) {
         throw UsageError(
@@ -69,7 +83,6 @@ void March<D>::accept(Slab<D>&& slab) {
     }
     state_.cap = {}; // before the next one is made
     state_ = state_after(state_.boundary, slab);
-    slab.hull = {};
     first_id_ = first_id();
 }
 

@@ -70,23 +70,35 @@ NewCap<D> make_adapted_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const
             std::move(adapted.side)};
 }
 
+/// The initial cap moved along, if that is good enough.
+template<int D>
+std::optional<CapMesh<D>> moved_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep,
+                                    const SlabSettings<D>& settings, Slab<D>& slab, StageClock& clock) {
+    enter_stage(cap_meshing_stage);
+    ReusedCap<D> reused = reuse_cap<D>(initial, sweep, settings.reuse_angle);
+    slab.moved_angle = reused.smallest_angle;
+    slab.cap_moved = reused.good();
+    clock.book("cap moving");
+    return reused.good() ? std::optional{std::move(reused.mesh)} : std::nullopt;
+}
+
+template<int D>
+CapMesh<D> meshed_cap(const Sweep<D>& sweep, const CapOptions& options, StageClock& clock) {
+    return clock.run(cap_meshing_stage,
+                     [&] { return mesh_cap<D>(sweep.boundary, sweep.at(sweep.layers()), options); });
+}
+
 /// The terminating cap: moved where that is wanted and good enough, else meshed.
 template<int D>
 CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SlabSettings<D>& settings,
                     Slab<D>& slab, StageClock& clock) {
-    enter_stage(cap_meshing_stage);
     if (settings.reuse == CapReuse::move) {
-        ReusedCap<D> reused = reuse_cap<D>(initial, sweep, settings.reuse_angle);
-        slab.moved_angle = reused.smallest_angle;
-        slab.cap_moved = reused.good();
-        clock.book("cap moving");
-        if (reused.good()) {
-            return std::move(reused.mesh);
+        if (std::optional<CapMesh<D>> moved = moved_cap<D>(initial, sweep, settings, slab, clock)) {
+            return *std::move(moved);
         }
     }
-    CapMesh<D> mesh = mesh_cap<D>(sweep.boundary, sweep.at(sweep.layers()), settings.cap);
+    CapMesh<D> mesh = meshed_cap<D>(sweep, settings.cap, clock);
     slab.cap_blocks = mesh.blocks;
-    clock.book(cap_meshing_stage);
     return mesh;
 }
 
@@ -135,8 +147,8 @@ void require_attainable_side(const Boundary<D>& boundary, std::size_t layers, Sp
 
 /// Step 3 of the method, with layers as they are given or as the motion needs them.
 template<int D>
-Sweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std::vector<double> times,
-                    const SlabSettings<D>& settings, Slab<D>& slab) {
+MeasuredSweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std::vector<double> times,
+                            const SlabSettings<D>& settings, std::optional<std::size_t>& enough) {
     if (settings.layers.automatic && times.size() != 2) {
         throw UsageError{
             fmt::format("layers follow from the motion, so a slab has two times, not {}", times.size())};
@@ -148,13 +160,12 @@ Sweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std:
                                  settings.trajectory, settings.layers)
             : sweep_measured<D>(boundary, cap, settings.motions, settings.motion_start, std::move(times),
                                 settings.trajectory, settings.layers);
-    slab.layers = swept.fit;
-    slab.layers_enough.reset(); // of an attempt with fewer layers
     require_attainable_side<D>(boundary, swept.sweep.layers(), settings.side.split);
+    enough.reset(); // of an attempt with fewer layers
     if (!swept.fit.sound() && settings.layers.suggest) {
-        slab.layers_enough = enough_layers(boundary, cap, swept.sweep.times, settings, swept.fit);
+        enough = enough_layers(boundary, cap, swept.sweep.times, settings, swept.fit);
     }
-    return std::move(swept.sweep);
+    return swept;
 }
 
 /// Puts all vertices of a moved cap on tracks, so that the hull alone tells which vertices correspond.
@@ -183,14 +194,15 @@ void track_adapted(const NewCap<D>& cap, IdCounter& ids, AdaptLog<D>& log, Spati
 }
 
 template<int D>
-Sweep<D> checked_sweep(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std::vector<double> times,
-                       const SlabSettings<D>& settings, Slab<D>& slab, StageClock& clock) {
-    Sweep<D> sweep = clock.run("trajectories",
-                               [&] { return sweep_slab(boundary, cap, std::move(times), settings, slab); });
+MeasuredSweep<D> checked_sweep(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
+                               std::vector<double> times, const SlabSettings<D>& settings,
+                               std::optional<std::size_t>& enough, StageClock& clock) {
+    MeasuredSweep<D> swept = clock.run(
+        "trajectories", [&] { return sweep_slab(boundary, cap, std::move(times), settings, enough); });
     clock.run(boundary_check_stage, [&] {
-        require_embedded_levels<D>(sweep, settings.motions, settings.motion_start, settings.trajectory);
+        require_embedded_levels<D>(swept.sweep, settings.motions, settings.motion_start, settings.trajectory);
     });
-    return sweep;
+    return swept;
 }
 
 constexpr int most_halvings = 6;   ///< of layers, for an adapted cap
@@ -222,7 +234,9 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
                                              std::vector<double> times, SlabSettings<D> settings,
                                              Slab<D>& slab, StageClock& clock) {
     for (int halvings = 0;; ++halvings) {
-        Sweep<D> sweep = checked_sweep<D>(boundary, initial.mesh(), times, settings, slab, clock);
+        auto [sweep, fit] =
+            checked_sweep<D>(boundary, initial.mesh(), times, settings, slab.layers_enough, clock);
+        slab.layers = fit;
         if (settings.reuse != CapReuse::adapt) {
             NewCap<D> cap{make_cap<D>(initial.mesh(), sweep, settings, slab, clock), {}, 0, {}};
             return {std::move(sweep), std::move(cap)};
@@ -293,31 +307,79 @@ void stitch_adapted(CapToStitch<D>& initial, NewCap<D>&& cap, const SlabSettings
     slab.hull = std::move(side).stitch(initial, std::move(terminating), slab.adapted->log.tracks, side_ids);
 }
 
+/// Joins the caps and the side, and fills in what the slab tells of them.
+template<int D>
+void join_slab(CapToStitch<D>& initial, Sweep<D>&& sweep, NewCap<D>&& cap, int number,
+               const SlabSettings<D>& settings, IdCounter ids, Slab<D>& slab) {
+    std::vector<double> spacing = std::move(cap.spacing);
+    cap.side ? stitch_adapted<D>(initial, std::move(cap), settings, ids, slab)
+             : stitch_slab<D>(initial, sweep, std::move(cap), settings, ids, slab);
+    if (slab.adapted) {
+        slab.hull.adapt_settings = settings_as_numbers(settings.adapt);
+        slab.hull.adapt_spacing = std::move(spacing);
+    }
+    slab.hull.slab = number;
+    slab.projected = std::move(sweep.projected);
+    slab.next_ids = ids;
+}
+
 } // namespace
+
+template<int D>
+PreparedSlab<D> sweep_ahead(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std::vector<double> times,
+                            const SlabSettings<D>& settings) {
+    PreparedSlab<D> prepared;
+    auto [sweep, fit] =
+        checked_sweep<D>(boundary, cap, std::move(times), settings, prepared.layers_enough, prepared.clock);
+    prepared.layers = fit;
+    prepared.sweep = std::move(sweep);
+    return prepared;
+}
+
+template<int D>
+void mesh_ahead(PreparedSlab<D>& prepared, const CapOptions& options) {
+    prepared.cap = meshed_cap<D>(prepared.sweep, options, prepared.clock);
+}
 
 template<int D>
 Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, std::vector<double> times,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock) {
     Slab<D> slab;
     auto [sweep, cap] = sweep_and_cap<D>(initial, boundary, times, settings, slab, clock);
+    clock.run("stitching",
+              [&] { join_slab<D>(initial, std::move(sweep), std::move(cap), number, settings, ids, slab); });
+    return slab;
+}
+
+template<int D>
+Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, PreparedSlab<D> prepared,
+                   const SlabSettings<D>& settings, IdCounter ids, StageClock& clock) {
+    Slab<D> slab;
+    clock.add(prepared.clock);
+    slab.layers = prepared.layers;
+    slab.layers_enough = prepared.layers_enough;
+    slab.cap_blocks = prepared.cap.blocks;
+    prepared.sweep.boundary = boundary; // which knows the initial cap
     clock.run("stitching", [&] {
-        std::vector<double> spacing = std::move(cap.spacing);
-        cap.side ? stitch_adapted<D>(initial, std::move(cap), settings, ids, slab)
-                 : stitch_slab<D>(initial, sweep, std::move(cap), settings, ids, slab);
-        if (slab.adapted) {
-            slab.hull.adapt_settings = settings_as_numbers(settings.adapt);
-            slab.hull.adapt_spacing = std::move(spacing);
-        }
-        slab.hull.slab = number;
-        slab.projected = std::move(sweep.projected);
-        slab.next_ids = ids;
+        join_slab<D>(initial, std::move(prepared.sweep), {std::move(prepared.cap), {}, 0, {}}, number,
+                     settings, ids, slab);
     });
     return slab;
 }
 
+template PreparedSlab<2> sweep_ahead<2>(const Boundary<2>&, const SpatialMesh<2>&, std::vector<double>,
+                                        const SlabSettings<2>&);
+template void mesh_ahead<2>(PreparedSlab<2>&, const CapOptions&);
 template Slab<2> build_slab<2>(CapToStitch<2>, const Boundary<2>&, int, std::vector<double>,
                                const SlabSettings<2>&, IdCounter, StageClock&);
+template Slab<2> build_slab<2>(CapToStitch<2>, const Boundary<2>&, int, PreparedSlab<2>,
+                               const SlabSettings<2>&, IdCounter, StageClock&);
+template PreparedSlab<3> sweep_ahead<3>(const Boundary<3>&, const SpatialMesh<3>&, std::vector<double>,
+                                        const SlabSettings<3>&);
+template void mesh_ahead<3>(PreparedSlab<3>&, const CapOptions&);
 template Slab<3> build_slab<3>(CapToStitch<3>, const Boundary<3>&, int, std::vector<double>,
+                               const SlabSettings<3>&, IdCounter, StageClock&);
+template Slab<3> build_slab<3>(CapToStitch<3>, const Boundary<3>&, int, PreparedSlab<3>,
                                const SlabSettings<3>&, IdCounter, StageClock&);
 
 } // namespace slabhull

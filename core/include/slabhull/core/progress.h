@@ -95,16 +95,19 @@ public:
     void show() const;
     /// How much of it is done.
     std::uint64_t done() const;
-    /// The same work, which is counted for this stage; to be run by another thread.
+    /// The same work, to be run by another thread. It is counted for this stage, and stopped as this thread's
+    /// work is; stages that it enters are not shown.
     template<class Work>
     auto counted(Work work) const {
-        return [work = std::move(work), watched = detail::Watched{detail::current_watch().watch, count_}] {
+        return [work = std::move(work), watched = watched_behind()]() mutable {
             const detail::WatchScope scope{watched};
             return work();
         };
     }
 
 private:
+    detail::Watched watched_behind() const;
+
     std::string stage_;
     std::shared_ptr<detail::StageCount> count_;
 };

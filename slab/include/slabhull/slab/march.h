@@ -58,9 +58,14 @@ public:
     /// As propose(), for a march that never goes back: the initial cap is released once it is in the hull, so
     /// that it is not held twice. After that the march can only accept this slab.
     Slab<D> build(std::vector<double> times, StageClock& clock);
+    /// The same of a slab that was prepared for this march's boundary and settings, see CapsAhead.
+    Slab<D> build(PreparedSlab<D> prepared, StageClock& clock);
 
-    /// Advances the march to the slab's end. Throws UsageError for a slab that was not proposed from here.
+    /// Advances the march to the slab's end and releases the slab's hull. Throws UsageError for a slab that
+    /// was not proposed from here.
     void accept(Slab<D>&& slab);
+    /// The same; the slab keeps its hull.
+    void accept(const Slab<D>& slab);
 
     /// Calls `progress` during propose() and build(). If it returns false they stop within a second: they
     /// throw Interrupted and leave the march unchanged.

@@ -49,6 +49,26 @@ struct Slab {
     SpatialMesh<D> terminating() const { return terminating_cap_of<D>(hull, terminating_facets); }
 };
 
+/// What a slab needs of its boundary alone: the swept boundary, and a terminating cap meshed anew.
+template<int D>
+struct PreparedSlab {
+    Sweep<D> sweep;
+    LayerFit layers;                          ///< as in Slab
+    std::optional<std::size_t> layers_enough; ///< as in Slab
+    CapMesh<D> cap;
+    StageClock clock; ///< what it took
+};
+
+/// Sweeps the boundary from its places in `cap`, whose cells are not asked, and checks it on every level. The
+/// cap is still to be meshed. Throws as build_slab() does.
+template<int D>
+PreparedSlab<D> sweep_ahead(const Boundary<D>& boundary, const SpatialMesh<D>& cap, std::vector<double> times,
+                            const SlabSettings<D>& settings);
+
+/// Meshes the cap of a slab whose boundary is swept. Throws as mesh_cap() does.
+template<int D>
+void mesh_ahead(PreparedSlab<D>& prepared, const CapOptions& options);
+
 /// Builds slab `number` on the initial cap, which `boundary` bounds, by the seven steps of the method.
 /// `times` are the levels, or start and end if layers follow from the motion (LayerOptions::automatic). The
 /// hull is not checked as a whole (check_hull() does); the boundary is, on every level, and so is the
@@ -58,6 +78,12 @@ struct Slab {
 /// thrown, an initial cap to be given up is still intact.
 template<int D>
 Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, std::vector<double> times,
+                   const SlabSettings<D>& settings, IdCounter ids, StageClock& clock);
+
+/// The same, of a slab that was prepared for the same boundary and settings: the result is the same, bit for
+/// bit.
+template<int D>
+Slab<D> build_slab(CapToStitch<D> initial, const Boundary<D>& boundary, int number, PreparedSlab<D> prepared,
                    const SlabSettings<D>& settings, IdCounter ids, StageClock& clock);
 
 } // namespace slabhull

@@ -19,16 +19,7 @@ inline constexpr const char* cap_meshing_stage = "cap meshing";
 class StageClock {
 public:
     /// Books the time since the last call (or the start) on `stage`.
-    void book(const std::string& stage) {
-        const double passed = watch_.lap();
-        for (auto& [name, seconds] : stages_) {
-            if (name == stage) {
-                seconds += passed;
-                return;
-            }
-        }
-        stages_.emplace_back(stage, passed);
-    }
+    void book(const std::string& stage) { add(stage, watch_.lap()); }
 
     /// Runs a stage of the work: announces its name (enter_stage()), then books its time. Returns what `work`
     /// returns.
@@ -45,6 +36,13 @@ public:
         }
     }
 
+    /// Adds the stages of another clock, which ran meanwhile.
+    void add(const StageClock& other) {
+        for (const auto& [name, seconds] : other.stages_) {
+            add(name, seconds);
+        }
+    }
+
     const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
     /// Total over all stages, in seconds.
     double total() const {
@@ -56,6 +54,16 @@ public:
     }
 
 private:
+    void add(const std::string& stage, double passed) {
+        for (auto& [name, seconds] : stages_) {
+            if (name == stage) {
+                seconds += passed;
+                return;
+            }
+        }
+        stages_.emplace_back(stage, passed);
+    }
+
     Stopwatch watch_;
     std::vector<std::pair<std::string, double>> stages_;
 };
