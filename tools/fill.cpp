@@ -112,8 +112,10 @@ int fill(const FillCommand& command) {
     io::Soup soup = read_named(command.hull, command.from);
     const MeshKind kind = kind_of(soup);
     if (!kind.hull) {
-        throw UsageError{
-            fmt::format("{}: a mesh in space; only the hulls of slabs are filled", command.hull)};
+        throw UsageError{fmt::format(
+            "{}: a mesh in space; only the hulls of slabs are filled: give a file that slabhull build wrote "
+            "(slab_0000.vtu)",
+            command.hull)};
     }
     return kind.dimension == 2 ? fill_file<2>(command, soup) : fill_file<3>(command, soup);
 }

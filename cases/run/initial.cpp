@@ -24,9 +24,10 @@ std::vector<std::string> patches_with_motions(const Case& the_case) {
 template<int D>
 Domain<D> mesh_bodies(const InitialBodies& bodies, const CapOptions& options, const IdCounter& ids,
                       const Listener& listener, StageClock& clock) {
-    Surface<D> surface = boundary_of_bodies<D>(bodies, listener);
+    FacetNaming naming;
+    Surface<D> surface = boundary_of_bodies<D>(bodies, listener, naming);
     clock.book("initial boundary");
-    require_domain_boundary(surface, {"initial boundary", {}}, true);
+    require_domain_boundary(surface, naming, true);
     clock.book(boundary_check_stage);
     CapMesh<D> cap = mesh_cap<D>(surface, options);
     clock.book(cap_meshing_stage);

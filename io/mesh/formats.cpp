@@ -2,6 +2,7 @@
 #include "slabhull/io/formats.h"
 
 #include "io/files/file_cursor.h"
+#include "io/mesh/content_advice.h"
 #include "io/mesh/left_out.h"
 #include "io/mesh/readers.h"
 
@@ -347,6 +348,50 @@ void require_supported(const Format& format, const WriteOptions& options, const 
     }
 }
 
+namespace {
+
+std::string extensions_of_all() {
+    std::string all;
+    for (const Format& format : formats()) {
+        all += fmt::format("{}{}", all.empty() ? "" : " ", fmt::join(format.extensions, " "));
+    }
+    return all;
+}
+
+/// Reads; a fault in a file that looks like one of another format says so.
+Soup read_as(const Format& format, const std::filesystem::path& path, const ReadOptions& options) {
+    try {
+        return format.read(path, options);
+    } catch (const InputError& error) {
+        const std::string advice = content_advice(path, format.name);
+        if (advice.empty()) {
+            throw;
+        }
+        throw InputError(error.what() + advice, error.entities);
+    }
+}
+
+} // namespace
+
+std::string content_advice(const std::filesystem::path& path, std::string_view format) {
+    std::error_code unreadable;
+    if (!std::filesystem::is_regular_file(path, unreadable)) {
+        return "";
+    }
+    if (std::filesystem::file_size(path, unreadable) == 0) {
+        return "; the file is empty: write it again";
+    }
+    const Format* content = format_of_content(path);
+    if (content == nullptr || content->name == format) {
+        return "";
+    }
+    const bool family = content->extensions.front() == ".vtu" && format == "pvtu"; // one signature for both
+    return family ? ""
+                  : fmt::format(
+                        "; its content looks like {}: name it {}, or export it anew", content->title,
+                        std::filesystem::path{path}.replace_extension(content->extensions.front()).string());
+}
+
 Soup read_mesh(const std::filesystem::path& path) {
     return read_mesh(path, ReadOptions{});
 }
@@ -357,10 +402,12 @@ Soup read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
         format = format_of_content(path);
     }
     if (format == nullptr) {
-        throw InputError(fmt::format(
-            "{}: neither the name nor the content is that of a mesh file that is read", path.string()));
+        throw InputError(
+            fmt::format("{}: neither the name nor the content is that of a mesh file that is read; mesh CAD "
+                        "models first, and export one of {}",
+                        path.string(), extensions_of_all()));
     }
-    return format->read(path, options);
+    return read_as(*format, path, options);
 }
 
 VtuEncoding vtu_encoding(const WriteOptions& options) {
