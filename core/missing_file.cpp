@@ -45,7 +45,8 @@ std::string look_again(const std::filesystem::path& path, int why) {
         return fmt::format("; did you mean {}?", (path.parent_path() / nearest).string());
     }
     return fmt::format("; there is none of nearly this name in {}: check the path",
-                       std::filesystem::absolute(folder, ignored).lexically_normal().string());
+                       path.has_parent_path() ? folder.string()
+                                              : std::filesystem::current_path(ignored).string());
 }
 
 } // namespace slabhull

@@ -38,6 +38,12 @@ std::string unknown_word(const CLI::App& program) {
     return rest.empty() ? "" : rest.front();
 }
 
+/// The name that was meant or, where none is near, `help`.
+std::string hint(const std::string& word, const std::vector<std::string>& known, const std::string& help) {
+    const std::string nearest = did_you_mean(word, known);
+    return nearest.empty() ? "; " + help : nearest;
+}
+
 } // namespace
 
 std::string usage_fault(const CLI::App& program, const CLI::ParseError& error) {
@@ -47,18 +53,17 @@ std::string usage_fault(const CLI::App& program, const CLI::ParseError& error) {
         const std::string fault = word.empty()            ? "a command is missing"
                                   : word.starts_with("-") ? fmt::format("there is no option {}", word)
                                                           : fmt::format("there is no command \"{}\"", word);
-        return fmt::format("{}{}; slabhull --help lists the commands", fault,
-                           did_you_mean(word, names_of_commands(program)));
+        return fault + hint(word, names_of_commands(program), "slabhull --help lists the commands");
     }
     const CLI::App& command = *chosen.front();
     const std::string help = fmt::format("slabhull {} --help says how it is called", command.get_name());
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || word.empty()) {
         return fmt::format("{}: {}; {}", command.get_name(), error.what(), help);
     }
-    const bool option = word.starts_with("-");
-    return fmt::format("{}: {} \"{}\"{}; {}", command.get_name(),
-                       option ? "there is no option" : "one argument too many,", word,
-                       option ? did_you_mean(word, names_of_options(command)) : "", help);
+    return word.starts_with("-")
+               ? fmt::format("{}: there is no option {}{}", command.get_name(), word,
+                             hint(word, names_of_options(command), help))
+               : fmt::format("{}: one argument too many, \"{}\"; {}", command.get_name(), word, help);
 }
 
 } // namespace slabhull::tools

@@ -74,8 +74,7 @@ public:
                                                body.frequency, number_(body.patch)));
         }
         if (const auto* box = std::get_if<BoxSpec>(&bodies.outer)) {
-            pieces.push_back(
-                box_surface<D>(as_point<D>(box->min), as_point<D>(box->max), box->size, number_(box->patch)));
+            pieces.push_back(box_of(*box));
         } else {
             pieces.push_back(read(std::get<BodyFile>(bodies.outer), true));
         }
@@ -107,6 +106,14 @@ private:
         require_sound(surface, encloses_domain, naming);
         namings_.push_back(std::move(naming));
         return surface;
+    }
+
+    Surface<D> box_of(const BoxSpec& box) {
+        try {
+            return box_surface<D>(as_point<D>(box.min), as_point<D>(box.max), box.size, number_(box.patch));
+        } catch (const LimitError& error) {
+            throw LimitError(fmt::format("initial.box.size: {}", error.what()));
+        }
     }
 
     /// Facets by their numbers in their own files; those of boxes and ellipsoids, which are meshed here, from

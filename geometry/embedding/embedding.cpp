@@ -294,7 +294,7 @@ std::string BoundaryInspection<D>::whereabouts(const Boundary<D>& boundary, Inde
     const std::string own = extent_in_words([&](Index f) { return boundary.component(f) == part; });
     const std::string outer = extent_in_words([&](Index f) { return enclosed[boundary.component(f)] > 0; });
     return fmt::format(
-        ": it extends from {}, the outer boundary from {}. Move it or change the outer boundary; if they "
+        "; it extends from {}, the outer boundary from {}. Move it or change the outer boundary; if they "
         "are in different units, slabhull convert --scale changes those of a surface",
         own, outer);
 }

@@ -170,8 +170,14 @@ void make_folder(const std::filesystem::path& folder) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     if (failure) {
-        throw OutputError(fmt::format("{}: the folder cannot be made: {}; give another one", folder.string(),
-                                      failure.message()));
+        std::error_code ignored;
+        const bool is_file =
+            std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored);
+        throw OutputError(
+            is_file ? fmt::format("{}: this is a file, where a folder is wanted; give another one with --out",
+                                  folder.string())
+                    : fmt::format("{}: the folder cannot be made: {}; give another one with --out",
+                                  folder.string(), failure.message()));
     }
 }
 

@@ -7,6 +7,8 @@
 #include "io/mesh/readers.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
@@ -358,17 +360,22 @@ std::string extensions_of_all() {
     return all;
 }
 
-/// Reads; a fault in a file that looks like one of another format says so.
-Soup read_as(const Format& format, const std::filesystem::path& path, const ReadOptions& options) {
-    try {
-        return format.read(path, options);
-    } catch (const InputError& error) {
-        const std::string advice = content_advice(path, format.name);
-        if (advice.empty()) {
-            throw;
-        }
-        throw InputError(error.what() + advice, error.entities);
-    }
+} // namespace
+
+namespace {
+
+/// Whether a file of text lacks the first words of its format, which STL, OBJ and TetGen's files need not
+/// have.
+bool begins_like_no(std::string_view format, const std::filesystem::path& path) {
+    constexpr std::size_t examined = 80;
+    const Format* named = format_named(format);
+    std::array<char, examined> start{};
+    std::ifstream file{path, std::ios::binary};
+    file.read(start.data(), examined);
+    const auto* end = start.begin() + file.gcount();
+    const bool text = std::all_of(
+        start.cbegin(), end, [](unsigned char c) { return std::isprint(c) != 0 || std::isspace(c) != 0; });
+    return text && start.front() != '#' && named != nullptr && !named->signatures.empty() && format != "stl";
 }
 
 } // namespace
@@ -382,7 +389,10 @@ std::string content_advice(const std::filesystem::path& path, std::string_view f
         return "; the file is empty: write it again";
     }
     const Format* content = format_of_content(path);
-    if (content == nullptr || content->name == format) {
+    if (content == nullptr) {
+        return begins_like_no(format, path) ? "; it begins like no file that is read: export it anew" : "";
+    }
+    if (content->name == format) {
         return "";
     }
     const bool family = content->extensions.front() == ".vtu" && format == "pvtu"; // one signature for both
@@ -390,6 +400,18 @@ std::string content_advice(const std::filesystem::path& path, std::string_view f
                   : fmt::format(
                         "; its content looks like {}: name it {}, or export it anew", content->title,
                         std::filesystem::path{path}.replace_extension(content->extensions.front()).string());
+}
+
+Soup read_as(const Format& format, const std::filesystem::path& path, const ReadOptions& options) {
+    try {
+        return format.read(path, options);
+    } catch (const InputError& error) {
+        const std::string advice = content_advice(path, format.name);
+        if (advice.empty()) {
+            throw;
+        }
+        throw InputError(error.what() + advice, error.entities);
+    }
 }
 
 Soup read_mesh(const std::filesystem::path& path) {

@@ -54,12 +54,13 @@ private:
     // --- sections ---
 
     void read_section() {
+        const std::size_t start = in_.offset();
         const std::string_view line = in_.line();
         const std::string name{line.substr(0, line.find_last_not_of(" \t") + 1)};
-        require(name.size() > 1 && name[0] == '$',
-                version_ == Version::unknown
-                    ? "this is no MSH file: $MeshFormat was expected, not a section's name"
-                    : "a section's name, such as $Nodes, was expected");
+        if (version_ == Version::unknown && !name.starts_with('$')) {
+            in_.fail_at(start, "this is no MSH file: $MeshFormat was expected");
+        }
+        require(name.size() > 1 && name[0] == '$', "a section's name, such as $Nodes, was expected");
         const bool heads = name == "$MeshFormat" || name == "$Comments";
         require(heads || version_ != Version::unknown, "this is no MSH file: $MeshFormat was expected");
         if (name == "$MeshFormat") {

@@ -97,7 +97,7 @@ public:
             in_.seek(0);
             in_.fail(size < head_size ? "this is no STL file: it is too short for one"
                      : is_text(head)
-                         ? "this is no STL file: as text, it would begin with \"solid\""
+                         ? "this is no STL file: as text, it would begin with \"solid\"; export it anew"
                          : fmt::format("{} facets take {} bytes, but the file has {}: it was {}; export or "
                                        "copy it again",
                                        count, binary_size, size,

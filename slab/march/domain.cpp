@@ -197,8 +197,7 @@ private:
                 std::swap(mesh_.cells[c][0], mesh_.cells[c][1]);
             }
         }
-        inverted.refuse(input_.where,
-                        "inverted cells (oriented against the others of their entity)",
+        inverted.refuse(input_.where, "inverted cells (oriented against the others of their entity)",
                         "; turn them round: swap two of their corners");
     }
 

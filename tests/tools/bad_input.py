@@ -20,13 +20,12 @@ BOX = 'box = { min = [-2, -2, -2], max = [2, 2, 2], size = 0.8, patch = "walls" 
 SQUARE = 'box = { min = [-2, -2], max = [2, 2], size = 0.4, patch = "walls" }'
 
 
-def octahedron(centre=(0, 0, 0), radius=0.5, drop=0):
-    """An OFF octahedron; `drop` leaves out so many of its facets."""
+def octahedron(centre=(0, 0, 0), radius=0.5):
+    """An OFF octahedron."""
     x, y, z = centre
     r = radius
     points = [(x + r, y, z), (x - r, y, z), (x, y + r, z), (x, y - r, z), (x, y, z + r), (x, y, z - r)]
     facets = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
-    facets = facets[drop:]
     lines = ["OFF", f"{len(points)} {len(facets)} 0"]
     lines += [" ".join(map(str, p)) for p in points] + ["3 " + " ".join(map(str, f)) for f in facets]
     return "\n".join(lines) + "\n"
