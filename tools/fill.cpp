@@ -72,7 +72,11 @@ void tell(const FillCommand& command, const Filling<D>& filling, std::size_t lay
 template<int D>
 Filling<D> fill_hull(const FillCommand& command, const Hull<D>& hull, StageClock& clock) {
     if (command.method == "march") {
-        return fill_slab(hull, clock);
+        try {
+            return fill_slab(hull, clock);
+        } catch (const GeometryError& error) {
+            throw GeometryError{fmt::format("{}: {}", command.hull, error.what()), error.entities};
+        }
     }
     if constexpr (D == 2) {
         return fill_unstructured(hull, clock, {command.time_scale});

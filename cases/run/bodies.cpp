@@ -79,8 +79,8 @@ public:
             pieces.push_back(read(std::get<BodyFile>(bodies.outer), true));
         }
         warn_of_shared_names(pieces);
-        warn_of_sizes(pieces);
         naming = naming_of_all(pieces);
+        warn_of_sizes(pieces, naming.where);
         return join<D>(pieces);
     }
 
@@ -231,7 +231,7 @@ private:
     }
 
     /// Bodies that are dots in their box: one of the two may be in other units.
-    void warn_of_sizes(const std::vector<Surface<D>>& pieces) const {
+    void warn_of_sizes(const std::vector<Surface<D>>& pieces, const std::string& where) const {
         constexpr double usual = 500;
         const auto longest_side = [](const Surface<D>& piece) {
             double longest = 0;
@@ -250,9 +250,9 @@ private:
         const double outer = longest_side(pieces.back());
         if (pieces.size() > 1 && outer > usual * largest) {
             listener_.warning(
-                fmt::format("the largest body is {:.3g} long, the outer boundary {:.3g}: if they are in "
+                fmt::format("{}: the largest body is {:.3g} long, the outer boundary {:.3g}: if they are in "
                             "different units, slabhull convert --scale changes those of a surface",
-                            largest, outer));
+                            where, largest, outer));
         }
     }
 

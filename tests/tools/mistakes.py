@@ -488,7 +488,7 @@ mistake("The body is in millimetres, the box in metres", case=SOLID, files={"bal
 mistake("The body is in metres, the box in millimetres", code=DONE, command="build case.toml --dry-run",
         case=SOLID.replace("-2", "-2000").replace("2, 2, 2", "2000, 2000, 2000").replace("0.8", "400"),
         files={"ball.off": ball(radius=0.05)},
-        says="warning: the largest body is 0.1 long, the outer boundary 4e+03: ",
+        says="warning: initial boundary of ball.off: the largest body is 0.1 long, the outer boundary 4e+03: ",
         todo="if they are in different units, slabhull convert --scale changes those of a surface")
 
 # --- Motions
@@ -616,7 +616,7 @@ mistake("A displacement file that lacks rows", code=INPUT,
 mistake("cap.size is much too small", case=SOLID + "[cap]\nsize = 1e-3\n", files={"ball.off": ball()}, code=GEOMETRY,
         says="cells no longer than 0.001 (cap.size) in a domain of measure 63.83 are some 4.6e+11: indices "
              "count up to 4.3e+09. ",
-        todo="A size from 0.013 on would do")
+        todo="A size from 0.014 on would do")
 
 mistake("The box's size is much too small", case=SOLID.replace("0.8", "1e-4"), files={"ball.off": ball()}, code=GEOMETRY,
         says="initial.box.size: a box from (-2, -2, -2) to (2, 2, 2) with edges of size 0.0001 has more "
@@ -694,9 +694,9 @@ mistake("A filling of a mesh in space", command="fill plate.msh plate.mfem", fil
         todo="give a file that slabhull build wrote (slab_0000.vtu)")
 
 mistake("A filling of a hull whose caps were meshed anew", command="fill run/slab_0000.vtu run.mfem", needs="run", code=GEOMETRY,
-        says="the cap at t = 0 has 409 vertices without a track, vertex 108, 109, 110, 111, 112, 113, 114, "
-             "115, 116, 117, ...: the hull alone cannot be filled, since its caps are not one mesh moved. "
-             "A cap that was meshed anew has none before it; ",
+        says="run/slab_0000.vtu: the cap at t = 0 has 409 vertices without a track, vertex 108, 109, 110, "
+             "111, 112, 113, 114, 115, 116, 117, ...: the hull alone cannot be filled, since its caps are "
+             "not one mesh moved. A cap that was meshed anew has none before it; ",
         todo='build with cap.reuse = "move" or "adapt". One that was adapted is filled from its VTU file, '
              "or by `build` with [fill] in the case file")
 
@@ -718,8 +718,9 @@ mistake("What is in a text file?", command="info notes.txt", files={"notes.txt":
         todo="give --from one of msh, vtu, pvtu, vtk, xdmf, tetgen, medit, mfem, avro, stl, off, obj, ply")
 
 mistake("A text file by the name of a mesh", command="info notes.msh", files={"notes.msh": "Monday\n"}, code=INPUT,
-        says="notes.msh: line 1: this is no MSH file: $MeshFormat was expected",
-        todo="")
+        says="notes.msh: line 1: this is no MSH file: $MeshFormat was expected; it begins like no file "
+             "that is read: ",
+        todo="export it anew")
 
 mistake("A conversion to a format that there is not", command="convert plate.msh plate.xyz", files={"plate.msh": SQUARE},
         needs="formats",
@@ -764,7 +765,7 @@ def contents(folder):
 
 def names_a_place(entry):
     """A message names a file, an option, a key's table, a patch or the command."""
-    words = [*entry.files, "case.toml", "motion.", "initial.", "patch", "cap.size", "velocity formula", "slabhull --help"]
+    words = [*entry.files, "case.toml", "motion.", "initial.", "patch", "cap.size", "velocity formula", "slabhull --help", "run/"]
     words += [word for word in entry.command.split() if len(word) > 3]
     return any(word in entry.says + entry.todo for word in words)
 
