@@ -245,8 +245,8 @@ class Refusals(ProgramTest):
     def test_bad_arguments_are_wrong_usage_and_leave_nothing_behind(self):
         out = ("--out", self.dir / "out")
         self.fails(USAGE, "tandem-ellipsoids", "square", *out)
-        self.fails(USAGE, "levels 1 to 8", "sphere", "--levels", "9", *out)
-        self.fails(USAGE, "levels 1 to 8", "sphere", "--levels", "7-9", *out)
+        self.fails(USAGE, "from 1 to 8", "sphere", "--levels", "9", *out)
+        self.fails(USAGE, "from 1 to 8", "sphere", "--levels", "7-9", *out)
         for levels in ("0", "x", "2-1", "1-", "-3", "1,2"):
             self.fails(USAGE, "--levels", "circle", f"--levels={levels}", *out)
         self.fails(USAGE, "centre", "circle", "--split", "A", *out)
