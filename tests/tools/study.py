@@ -253,7 +253,7 @@ class Refusals(ProgramTest):
         self.fails(USAGE, "A", "sphere", "--split", "C,,E", *out)
         self.fails(USAGE, "--out", "circle")
         self.fails(USAGE, "--threads", "circle", "--threads", "-1", *out)
-        self.fails(USAGE, "levels 1 to", "all", "--levels", "10-12", *out)
+        self.fails(USAGE, "from 1 to", "all", "--levels", "10-12", *out)
 
     def test_an_output_directory_that_cannot_be_made(self):
         (self.dir / "file").write_text("")
