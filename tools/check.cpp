@@ -157,7 +157,9 @@ Hull<D> read_hull(const CheckCommand& command) {
     io::Soup soup = read_named(command.hull, "");
     const MeshKind kind = kind_of(soup);
     if (kind.dimension != D || !kind.hull) {
-        throw UsageError{fmt::format("--hull: {} is not a hull in {}D+t", command.hull, D)};
+        throw UsageError{
+            fmt::format("--hull: {} is not a hull in {}D+t; give the one that was filled (slab_0000.vtu)",
+                        command.hull, D)};
     }
     const HullArrays<D> arrays = hull_of_soup<D>(soup);
     return hull_of_columns<D>(arrays.columns());

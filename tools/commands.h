@@ -16,4 +16,7 @@ void add_slice(CLI::App& program, int& exit_code);
 void add_study(CLI::App& program, int& exit_code);
 void add_view(CLI::App& program, int& exit_code);
 
+/// What is wrong with a command line, with the command or option that may have been meant.
+std::string usage_fault(const CLI::App& program, const CLI::ParseError& error);
+
 } // namespace slabhull::tools

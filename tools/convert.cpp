@@ -183,7 +183,7 @@ int convert(const ConvertCommand& command) {
     const io::Format& to = format_to_write(command.out, command.to);
     io::require_supported(to, command.writing, "--");
     require_sense(command);
-    io::Soup soup = from.read(command.in, command.reading);
+    io::Soup soup = io::read_as(from, command.in, command.reading);
     print_remarks(soup);
     const std::vector<std::string> lost_numbers = io::lost_numbers(soup);
     settle_numbers(soup);

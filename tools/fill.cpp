@@ -74,7 +74,11 @@ void tell(const FillCommand& command, const Filling<D>& filling, std::size_t lay
 template<int D>
 Filling<D> fill_hull(const FillCommand& command, const Hull<D>& hull, StageClock& clock) {
     if (command.method == "march") {
-        return fill_slab(hull, clock);
+        try {
+            return fill_slab(hull, clock);
+        } catch (const GeometryError& error) {
+            throw GeometryError{fmt::format("{}: {}", command.hull, error.what()), error.entities};
+        }
     }
     if constexpr (D == 2) {
         return fill_unstructured(hull, clock, {command.time_scale});
@@ -120,8 +124,10 @@ int fill(const FillCommand& command) {
     io::Soup soup = read_named(command.hull, command.from);
     const MeshKind kind = kind_of(soup);
     if (!kind.hull) {
-        throw UsageError{
-            fmt::format("{}: a mesh in space; only the hulls of slabs are filled", command.hull)};
+        throw UsageError{fmt::format(
+            "{}: a mesh in space; only the hulls of slabs are filled: give a file that slabhull build wrote "
+            "(slab_0000.vtu)",
+            command.hull)};
     }
     return kind.dimension == 2 ? fill_file<2>(command, soup) : fill_file<3>(command, soup);
 }

@@ -208,7 +208,7 @@ int info(const InfoCommand& command) {
         return 0;
     }
     const io::Format& format = format_to_read(command.file, command.from);
-    io::Soup soup = format.read(command.file);
+    io::Soup soup = io::read_as(format, command.file);
     print_remarks(soup);
     const std::vector<Arrays> arrays = arrays_of(soup);
     const SoupInfo seen = soup_info(std::move(soup));

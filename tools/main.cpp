@@ -68,8 +68,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::Success& wish) { // --help, --version
         return program.exit(wish);
     } catch (const CLI::ParseError& error) {
-        program.exit(error);
-        return wrong_usage;
+        return complain(slabhull::tools::usage_fault(program, error), wrong_usage);
     } catch (const slabhull::Interrupted&) {
         constexpr int by_signal = 128;
         return complain(

@@ -42,7 +42,7 @@ const io::Format& format_to_write(const std::string& file, const std::string& na
 }
 
 io::Soup read_named(const std::string& file, const std::string& name) {
-    io::Soup soup = name.empty() ? io::read_mesh(file) : format_to_read(file, name).read(file);
+    io::Soup soup = name.empty() ? io::read_mesh(file) : io::read_as(format_to_read(file, name), file);
     print_remarks(soup);
     return soup;
 }

@@ -39,7 +39,9 @@ double parse_time(std::string_view text, const char* option) {
     double time = 0;
     const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), time);
     if (problem != std::errc{} || stop != text.data() + text.size() || !std::isfinite(time)) {
-        throw UsageError{fmt::format("{}: expected a finite number, not \"{}\"", option, text)};
+        throw UsageError{fmt::format("{}: expected a finite number, not \"{}\"; write times as 0.5, 0:1:11 "
+                                     "(first:last:number) or 0,0.5,1",
+                                     option, text)};
     }
     return time;
 }
@@ -199,7 +201,9 @@ private:
         io::Soup soup = read_named(file, command_.from);
         const MeshKind kind = kind_of(soup);
         if (!kind.hull) {
-            throw InputError{fmt::format("{}: a mesh in space, not the hull of a slab", file)};
+            throw InputError{fmt::format("{}: a mesh in space, not the hull of a slab; give a file that "
+                                         "slabhull build wrote (slab_0000.vtu)",
+                                         file)};
         }
         require_dimension(file, kind.dimension);
         cut_as_input(file, [&] { kind.dimension == 2 ? cut_hull<2>(file, soup) : cut_hull<3>(file, soup); });
@@ -234,7 +238,7 @@ private:
     void cut_hull(const std::string& file, io::Soup& soup) {
         const HullArrays<D> arrays = hull_of_soup<D>(soup);
         const HullColumns<D> hull = arrays.columns();
-        const std::vector<std::size_t> numbers = times_within(time_span(hull));
+        const std::vector<std::size_t> numbers = times_within(file, time_span(hull));
         std::vector<double> times;
         for (const std::size_t k : numbers) {
             times.push_back(times_[k]);
@@ -250,14 +254,15 @@ private:
     void cut_filling(const std::string& file, io::SpaceTimeSoup& soup) {
         const FillingArrays<D> arrays = filling_of_soup<D>(soup);
         const FillingColumns<D> filling = arrays.columns();
-        for (const std::size_t k : times_within(time_span(filling))) {
+        for (const std::size_t k : times_within(file, time_span(filling))) {
             write(file, k, slice_filling<D>(filling, times_[k]));
         }
     }
 
     /// The numbers of the times in the span that are not cut yet.
-    std::vector<std::size_t> times_within(const TimeSpan& span) {
-        spans_ += fmt::format("{}[{}, {}]", spans_.empty() ? "" : ", ", span.first, span.last);
+    std::vector<std::size_t> times_within(const std::string& file, const TimeSpan& span) {
+        spans_ +=
+            fmt::format("{}{} lasts from {} to {}", spans_.empty() ? "" : ", ", file, span.first, span.last);
         std::vector<std::size_t> numbers;
         for (std::size_t k = 0; k < times_.size(); ++k) {
             if (sections_[k].file == nullptr && span.contains(times_[k])) {
@@ -298,7 +303,8 @@ private:
         for (std::size_t k = 0; k < times_.size(); ++k) {
             if (sections_[k].file == nullptr) {
                 throw UsageError{
-                    fmt::format("t = {} is in none of the files, which last {}", times_[k], spans_)};
+                    fmt::format("{}: t = {} is in none of the files: {}; give a time in one of them",
+                                command_.time.empty() ? "--times" : "--time", times_[k], spans_)};
             }
         }
     }

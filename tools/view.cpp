@@ -108,8 +108,10 @@ private:
         } else if (kind.dimension == 3 && soup.find_field_data("slab") != nullptr) { // of 2D + t, as VTU
             add_filling(file, filling_of_tetrahedra(soup));
         } else {
-            throw InputError{
-                fmt::format("{}: a mesh in space, neither the hull nor a filling of a slab", file)};
+            throw InputError{fmt::format("{}: a mesh in space, neither the hull nor a filling of a slab; "
+                                         "give a file that slabhull build or fill "
+                                         "wrote (slab_0000.vtu)",
+                                         file)};
         }
     }
 

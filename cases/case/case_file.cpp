@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/cases/case.h"
 
+#include "slabhull/cases/experiments.h"
 #include "slabhull/cases/filling_files.h"
 
 #include "slabhull/core/error.h"
@@ -64,14 +65,17 @@ private:
     void read_experiment(KeyTable& initial, const std::string& name) {
         for (const char* other : {"mesh", "surfaces", "curves", "box", "outer"}) {
             if (initial.has(other)) {
-                initial.fail(other, "nothing beside \"experiment\"");
+                initial.refuse(other, "the experiment has a domain of its own; remove one of the two");
             }
         }
         const int level = initial.has("level") ? initial.integer("level", 1, 99) : 1;
+        const char* key = "experiment";
         try {
+            experiment_levels(name);
+            key = "level";
             case_ = experiment_case(name, level);
         } catch (const UsageError& error) {
-            initial.fail("experiment", error.what());
+            initial.refuse(key, error.what());
         }
         if (root_.has("dimension")) {
             root_.integer("dimension", case_.dimension, case_.dimension);
@@ -80,10 +84,24 @@ private:
 
     void read_initial(KeyTable& initial) {
         const char* bodies = case_.dimension == 3 ? "surfaces" : "curves";
+        const char* bodies_elsewhere = case_.dimension == 3 ? "curves" : "surfaces";
+        if (initial.has(bodies_elsewhere)) {
+            initial.refuse(bodies_elsewhere,
+                           fmt::format("they are for dimension = {}; give {}, or change dimension",
+                                       5 - case_.dimension, bodies));
+        }
         if (initial.has("mesh")) {
             if (initial.has(bodies)) {
                 initial.fail(bodies,
                              "exactly one of \"mesh\", \"surfaces\" or \"curves\", and \"experiment\"");
+            }
+            for (const char* outer : {"box", "outer"}) {
+                if (initial.has(outer)) {
+                    initial.refuse(outer,
+                                   fmt::format("a mesh is the whole domain, its outer boundary included; "
+                                               "remove this, or give {} instead of the mesh",
+                                               bodies));
+                }
             }
             case_.initial = read_mesh_keys(initial);
             return;
@@ -159,7 +177,7 @@ private:
         case_.start = time.number_or("start", case_.start);
         case_.end = time.number_or("end", case_.end);
         if (!(case_.start < case_.end)) {
-            time.fail("end", "a time after \"start\"");
+            time.fail("end", fmt::format("a time after \"start\", {}, not {}", case_.start, case_.end));
         }
         if (time.has("slabs")) {
             case_.slabs = time.integer("slabs", 1, 100'000'000);
@@ -487,14 +505,32 @@ private:
 
 } // namespace
 
+namespace {
+
+/// A mesh where a case file is wanted is told so.
+void require_case_file(const std::filesystem::path& path) {
+    const io::Format* format = io::format_of_extension(path);
+    if (format != nullptr && std::filesystem::is_regular_file(path)) {
+        throw UsageError(
+            fmt::format("{}: this is a mesh or surface ({}), not a case file; slabhull new {} writes a "
+                        "case file to start with",
+                        path.string(), format->title, path.string()));
+    }
+}
+
+} // namespace
+
 Case read_case(const std::filesystem::path& path) {
+    require_case_file(path);
     Case the_case = CaseReader{KeyTable::parse_file(path), path.parent_path()}.run();
+    the_case.file = path;
     the_case.checksum = io::checksum_of(path);
     return the_case;
 }
 
 Case parse_case(const std::string& text, const std::filesystem::path& path) {
     Case the_case = CaseReader{KeyTable::parse(text, path.string()), path.parent_path()}.run();
+    the_case.file = path;
     io::Checksum checksum;
     checksum.add(text.data(), text.size());
     the_case.checksum = checksum.value();

@@ -5,6 +5,7 @@
 #include "slabhull/cases/experiments.h"
 
 #include "slabhull/core/error.h"
+#include "slabhull/core/text.h"
 #include "slabhull/geometry/shapes.h"
 
 #include <algorithm>
@@ -113,7 +114,8 @@ const Experiment& find_experiment(const std::string& name) {
         }
         known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", experiment.name);
     }
-    throw UsageError(fmt::format("no experiment \"{}\"; there are {}", name, known));
+    throw UsageError(fmt::format("no experiment \"{}\"; there are {}{}", name, known,
+                                 did_you_mean(name, experiment_names())));
 }
 
 constexpr double quarter_turn = std::numbers::pi / 2;
@@ -211,7 +213,8 @@ Case experiment_case(const std::string& name, int level) {
     const Experiment& experiment = find_experiment(name);
     const auto levels = static_cast<int>(experiment.levels.size());
     if (level < 1 || level > levels) {
-        throw UsageError(fmt::format("experiment \"{}\" has levels 1 to {}, not {}", name, levels, level));
+        throw UsageError(
+            fmt::format("experiment \"{}\" has no level {}; give one from 1 to {}", name, level, levels));
     }
     Case result = experiment_at(name, experiment.levels[static_cast<std::size_t>(level - 1)].refinement);
     result.title += fmt::format(", level {}", level);

@@ -2,14 +2,18 @@
 #include "cases/case/key_table.h"
 
 #include "slabhull/core/error.h"
+#include "slabhull/core/missing_file.h"
 #include "slabhull/core/text.h"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
-#include <numeric>
 #include <set>
 #include <toml++/toml.h>
 
@@ -33,25 +37,37 @@ namespace {
 
 std::string read_all(const std::filesystem::path& path) {
     std::ifstream file{path, std::ios::binary};
-    if (!file || std::filesystem::is_directory(path)) {
-        throw InputError(fmt::format("{}: cannot be read", path.string()));
+    if (std::filesystem::is_directory(path)) {
+        throw InputError(fmt::format("{}: is a folder; give the case file in it", path.string()));
+    }
+    if (!file) {
+        const int why = errno;
+        throw InputError(fmt::format("{}: cannot be read: {}{}", path.string(), std::strerror(why),
+                                     look_again(path, why)));
     }
     return {std::istreambuf_iterator<char>{file}, {}};
 }
 
-/// Levenshtein's distance.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
+/// What toml++ says, and what to do about the mistakes that are made most often.
+std::string toml_fault(const std::string& said) {
+    struct Advice {
+        const char* words;
+        const char* advice;
+    };
+    constexpr std::array<Advice, 5> advices{{
+        {"could not determine value type", "texts stand in quotation marks, numbers have a decimal point"},
+        {"cannot redefine existing table",
+         "a table stands once in a file: put all its keys under one heading"},
+        {"cannot redefine existing", "a key stands once in a table: remove one of the two"},
+        {"saw ','", "numbers have a decimal point, not a comma; lists stand in brackets, as in [1.0, 2.5]"},
+        {"", "write key = value, a line each, under [table] headings, as docs/case-file.md has them"},
+    }};
+    const std::size_t colon = said.find(": "); // behind "Error while parsing ..."
+    const auto* found = std::find_if(advices.begin(), advices.end(), [&said](const Advice& each) {
+        return said.find(each.words) != std::string::npos;
+    });
+    return fmt::format("no TOML: {}; {}",
+                       readable(colon == std::string::npos ? said : said.substr(colon + 2)), found->advice);
 }
 
 } // namespace
@@ -68,8 +84,8 @@ KeyTable KeyTable::parse(const std::string& text, const std::string& name) {
         const toml::table* table = root.get();
         return KeyTable{std::make_shared<Node>(Node{std::move(root), table, name, ""})};
     } catch (const toml::parse_error& error) {
-        throw UsageError(
-            fmt::format("{}: line {}: {}", name, error.source().begin.line, readable(error.description())));
+        throw UsageError(fmt::format("{}: line {}: {}", name, error.source().begin.line,
+                                     toml_fault(std::string{error.description()})));
     }
 }
 
@@ -99,22 +115,28 @@ void KeyTable::fail(const std::string& key, const std::string& expected) const {
                                  readable(expected)));
 }
 
+void KeyTable::refuse(const std::string& key, const std::string& fault) const {
+    throw UsageError(fmt::format("{}: line {}: {}: {}", node_->file,
+                                 node_->table->get(key)->source().begin.line, readable(node_->full_name(key)),
+                                 readable(fault)));
+}
+
 void KeyTable::require_all_known() const {
     for (const auto& [key, value] : *node_->table) {
         const std::string name{key.str()};
         if (node_->known.contains(name)) {
             continue;
         }
-        std::string message = fmt::format("{}: line {}: unknown key \"{}\"", node_->file,
-                                          key.source().begin.line, readable(node_->full_name(name)));
-        const auto nearest = std::min_element(node_->known.begin(), node_->known.end(),
-                                              [&name](const std::string& a, const std::string& b) {
-                                                  return edit_distance(a, name) < edit_distance(b, name);
-                                              });
-        if (nearest != node_->known.end()) {
-            message += fmt::format("; the nearest known key is \"{}\"", readable(node_->full_name(*nearest)));
-        }
-        throw UsageError(message);
+        const std::vector<std::string> known(node_->known.begin(), node_->known.end());
+        const std::string nearest = nearest_name(name, known);
+        const std::string advice =
+            nearest.empty()
+                ? fmt::format("the keys {} are {}", node_->name.empty() ? "here" : "of " + node_->name,
+                              fmt::join(known, ", "))
+                : fmt::format("did you mean \"{}\"?", node_->full_name(nearest));
+        throw UsageError(fmt::format("{}: line {}: unknown key \"{}\"; {}", node_->file,
+                                     key.source().begin.line, readable(node_->full_name(name)),
+                                     readable(advice)));
     }
 }
 
@@ -144,7 +166,8 @@ int KeyTable::integer(const std::string& key, int smallest, int largest) {
                                      ? fmt::format("{}", smallest)
                                      : fmt::format("a whole number from {} to {}", smallest, largest);
     if (node == nullptr || !node->is_integer()) {
-        fail(key, expected);
+        const bool quoted = node != nullptr && node->is_string();
+        fail(key, quoted ? expected + ", without quotation marks" : expected);
     }
     const std::int64_t value = node->as_integer()->get();
     if (value < smallest || value > largest) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/core/text.h"
+
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -51,17 +53,22 @@ public:
         const auto found = choices.find(name);
         if (found == choices.end()) {
             std::string known;
+            std::vector<std::string> names;
             for (const auto& [each, value] : choices) {
+                names.push_back(each);
                 known += (known.empty() ? "\"" : ", \"") + each + "\"";
             }
-            fail(key, (choices.size() > 1 ? "one of " : "") + known + ", not \"" + name + "\"");
+            fail(key, (choices.size() > 1 ? "one of " : "") + known + ", not \"" + name + "\"" +
+                          did_you_mean(name, names));
         }
         return found->second;
     }
 
     /// Throws UsageError: at `key` of this table, `expected` was expected.
     [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
-    /// Throws UsageError for the first unknown key and names the nearest known one.
+    /// Throws UsageError: the `fault` at `key`, which there is.
+    [[noreturn]] void refuse(const std::string& key, const std::string& fault) const;
+    /// Throws UsageError for the first unknown key; names the nearest known one, or all of them.
     void require_all_known() const;
 
 private:

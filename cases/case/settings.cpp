@@ -5,7 +5,9 @@
 #include "cases/case/patch_motions.h"
 #include "cases/tables/displacement_files.h"
 #include "slabhull/core/error.h"
+#include "slabhull/core/text.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <numeric>
 #include <set>
@@ -14,15 +16,27 @@ namespace slabhull {
 
 namespace {
 
+/// What patches that are called by numbers mean.
+std::string nameless_groups(const std::vector<std::string>& names) {
+    const bool any = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+        return name.find_first_not_of("0123456789") == std::string::npos;
+    });
+    return any ? "; a number is a physical group without a name: use the number, or name the group in the "
+                 "mesher"
+               : "";
+}
+
 PatchNumber number_of(const PatchList& patches, const std::string& name, const char* table) {
     const PatchNumber number = patch_number(patches, name);
     if (number == 0) {
         std::string known;
+        std::vector<std::string> names;
         for (const Patch& patch : patches) {
+            names.push_back(patch.name);
             known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", patch.name);
         }
-        throw UsageError(
-            fmt::format("[{}.{}]: the domain has no patch \"{}\"; it has {}", table, name, name, known));
+        throw UsageError(fmt::format("[{}.{}]: the domain has no patch \"{}\"; it has {}{}{}", table, name,
+                                     name, known, nameless_groups(names), did_you_mean(name, names)));
     }
     return number;
 }
@@ -127,7 +141,14 @@ CapOptions cap_options(const Case& the_case) {
 
 template<int D>
 CaseSettings<D> case_settings(const Case& the_case, const Boundary<D>& boundary) {
-    return SettingsMaker<D>{the_case, boundary}.run();
+    try {
+        return SettingsMaker<D>{the_case, boundary}.run();
+    } catch (const UsageError& error) {
+        if (the_case.file.empty()) {
+            throw;
+        }
+        throw UsageError(fmt::format("{}: {}", the_case.file.string(), error.what()), error.entities);
+    }
 }
 
 template CaseSettings<2> case_settings<2>(const Case&, const Boundary<2>&);

@@ -5,6 +5,7 @@
 #include "cases/case/patch_names.h"
 #include "cases/run/mesh_soup.h"
 #include "cases/run/orientation.h"
+#include "core/listed.h"
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/embedding.h"
 #include "slabhull/geometry/shapes.h"
@@ -62,22 +63,24 @@ class BodyReader {
 public:
     explicit BodyReader(const Listener& listener) : listener_{listener} {}
 
-    Surface<D> boundary(const InitialBodies& bodies) {
+    Surface<D> boundary(const InitialBodies& bodies, FacetNaming& naming) {
         std::vector<Surface<D>> pieces;
         for (const BodyFile& body : bodies.files) {
             pieces.push_back(read(body, false));
         }
+        files_before_outer_ = pieces.size();
         for (const EllipsoidBody& body : bodies.ellipsoids) {
             pieces.push_back(ellipsoid_body<D>(as_point<D>(body.centre), as_point<D>(body.semi_axes),
                                                body.frequency, number_(body.patch)));
         }
         if (const auto* box = std::get_if<BoxSpec>(&bodies.outer)) {
-            pieces.push_back(
-                box_surface<D>(as_point<D>(box->min), as_point<D>(box->max), box->size, number_(box->patch)));
+            pieces.push_back(box_of(*box));
         } else {
             pieces.push_back(read(std::get<BodyFile>(bodies.outer), true));
         }
         warn_of_shared_names(pieces);
+        naming = naming_of_all(pieces);
+        warn_of_sizes(pieces, naming.where);
         return join<D>(pieces);
     }
 
@@ -101,7 +104,39 @@ private:
                             naming.where, turned, surface.facets.size()));
         }
         require_sound(surface, encloses_domain, naming);
+        namings_.push_back(std::move(naming));
         return surface;
+    }
+
+    Surface<D> box_of(const BoxSpec& box) {
+        try {
+            return box_surface<D>(as_point<D>(box.min), as_point<D>(box.max), box.size, number_(box.patch));
+        } catch (const LimitError& error) {
+            throw LimitError(fmt::format("initial.box.size: {}", error.what()));
+        }
+    }
+
+    /// Facets by their numbers in their own files; those of boxes and ellipsoids, which are meshed here, from
+    /// 0.
+    FacetNaming naming_of_all(const std::vector<Surface<D>>& pieces) const {
+        constexpr std::size_t shown = 4;
+        std::vector<std::string> files;
+        FacetNaming all;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            // Files come first, in their order, and an outer file comes last.
+            const bool outer_file = i + 1 == pieces.size() && namings_.size() > files_before_outer_;
+            const FacetNaming* own = i < files_before_outer_ ? &namings_[i]
+                                     : outer_file            ? &namings_.back()
+                                                             : nullptr;
+            for (std::size_t f = 0; f < pieces[i].facets.size(); ++f) {
+                all.numbers.push_back(own != nullptr ? own->numbers[f] : static_cast<std::int64_t>(f));
+            }
+            if (own != nullptr && std::find(files.begin(), files.end(), own->where) == files.end()) {
+                files.push_back(own->where);
+            }
+        }
+        all.where = files.empty() ? "initial boundary" : "initial boundary of " + listed(files, shown);
+        return all;
     }
 
     static void require_sound(const Surface<D>& surface, bool encloses_domain, const FacetNaming& naming) {
@@ -195,8 +230,47 @@ private:
             shown < names.size() ? " ..." : "", patch));
     }
 
+    /// Bodies that are dots in their box: one of the two may be in other units.
+    void warn_of_sizes(const std::vector<Surface<D>>& pieces, const std::string& where) const {
+        constexpr double usual = 500;
+        const auto longest_side = [](const Surface<D>& piece) {
+            double longest = 0;
+            for (std::size_t k = 0; k < D; ++k) {
+                const auto [low, high] =
+                    std::minmax_element(piece.points.begin(), piece.points.end(),
+                                        [k](const Point<D>& a, const Point<D>& b) { return a[k] < b[k]; });
+                longest = std::max(longest, (*high)[k] - (*low)[k]);
+            }
+            return longest;
+        };
+        double largest = 0;
+        for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+            largest = std::max(largest, longest_side(pieces[i]));
+        }
+        const double outer = longest_side(pieces.back());
+        if (pieces.size() > 1 && outer > usual * largest) {
+            listener_.warning(
+                fmt::format("{}: the largest body is {:.3g} long, the outer boundary {:.3g}: if they are in "
+                            "different units, slabhull convert --scale changes those of a surface",
+                            where, largest, outer));
+        }
+    }
+
     /// Motions are given by patch, so bodies of one name move together.
     void warn_of_shared_names(const std::vector<Surface<D>>& pieces) const {
+        for (std::size_t i = 1; i + 1 < pieces.size(); ++i) {
+            for (const Patch& patch : pieces[i].patches) {
+                const bool earlier = std::any_of(
+                    pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(i),
+                    [&](const auto& piece) { return patch_number(piece.patches, patch.name) != 0; });
+                if (earlier) {
+                    listener_.warning(
+                        fmt::format("the patch \"{}\" is part of several bodies: they move, or stand "
+                                    "still, together; give each a name of its own to move it alone",
+                                    patch.name));
+                }
+            }
+        }
         for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
             for (const Patch& patch : pieces[i].patches) {
                 if (patch_number(pieces.back().patches, patch.name) != 0) {
@@ -211,16 +285,18 @@ private:
 
     const Listener& listener_;
     PatchNumbers number_;
+    std::vector<FacetNaming> namings_; ///< of the files
+    std::size_t files_before_outer_ = 0;
 };
 
 } // namespace
 
 template<int D>
-Surface<D> boundary_of_bodies(const InitialBodies& bodies, const Listener& listener) {
-    return BodyReader<D>{listener}.boundary(bodies);
+Surface<D> boundary_of_bodies(const InitialBodies& bodies, const Listener& listener, FacetNaming& naming) {
+    return BodyReader<D>{listener}.boundary(bodies, naming);
 }
 
-template Surface<2> boundary_of_bodies<2>(const InitialBodies&, const Listener&);
-template Surface<3> boundary_of_bodies<3>(const InitialBodies&, const Listener&);
+template Surface<2> boundary_of_bodies<2>(const InitialBodies&, const Listener&, FacetNaming&);
+template Surface<3> boundary_of_bodies<3>(const InitialBodies&, const Listener&, FacetNaming&);
 
 } // namespace slabhull

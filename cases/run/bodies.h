@@ -4,6 +4,7 @@
 #include "slabhull/cases/case.h"
 #include "slabhull/core/message.h"
 #include "slabhull/geometry/cap_mesher.h"
+#include "slabhull/geometry/embedding.h"
 #include "slabhull/slab/domain.h"
 #include "slabhull/topology/spatial_mesh.h"
 
@@ -13,9 +14,10 @@ namespace slabhull {
 
 /// The boundary of the domain that is the outer boundary without the bodies, each checked by itself.
 /// Warnings: what readers did, facets that had to be turned, names of a file's parts that are not kept, one
-/// name for a body and the outer boundary. Throws InputError naming file and facets.
+/// name for several bodies, bodies that are dots in their box. Throws InputError naming file and facets.
+/// `naming` becomes that of the whole: the files, and each facet's number in its own.
 template<int D>
-Surface<D> boundary_of_bodies(const InitialBodies& bodies, const Listener& listener);
+Surface<D> boundary_of_bodies(const InitialBodies& bodies, const Listener& listener, FacetNaming& naming);
 
 /// A domain with this boundary, as far as the boundary goes: facets, patches and tracks are what
 /// make_domain() will give them; there are no cells and no points inside.

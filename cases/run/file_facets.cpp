@@ -69,7 +69,9 @@ io::SimplexBlock cells_of_regions(const io::Soup& soup, const std::vector<std::s
         if (found == in_use.end()) {
             const std::string known = regions_of(soup, D);
             throw UsageError(fmt::format("[initial] regions: {} has no region \"{}\"; {}{}", soup.path, name,
-                                         known.empty() ? "its cells are in no physical group" : "it has ",
+                                         known.empty()
+                                             ? "its cells are in no physical group; leave regions out"
+                                             : "give of those that it has, ",
                                          known));
         }
         groups.insert(*found);

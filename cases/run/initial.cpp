@@ -25,9 +25,10 @@ template<int D>
 Domain<D> mesh_bodies(const InitialBodies& bodies, const CapOptions& options, const IdCounter& ids,
                       const Listener& listener, StageClock& clock,
                       const std::function<void(const SpatialMesh<D>&)>& on_boundary) {
-    Surface<D> surface = boundary_of_bodies<D>(bodies, listener);
+    FacetNaming naming;
+    Surface<D> surface = boundary_of_bodies<D>(bodies, listener, naming);
     clock.book("initial boundary");
-    require_domain_boundary(surface, {"initial boundary", {}}, true);
+    require_domain_boundary(surface, naming, true);
     clock.book(boundary_check_stage);
     if (on_boundary) {
         on_boundary(boundary_alone<D>(surface));

@@ -8,12 +8,18 @@
 #include "slabhull/core/error.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <set>
 
 namespace slabhull {
 
 namespace {
+
+const char* simplices_called(int dimension) {
+    constexpr std::array<const char*, 4> names{"points", "lines", "triangles", "tetrahedra"};
+    return names.at(static_cast<std::size_t>(dimension));
+}
 
 template<int D>
 Array<Point<D>> points_in_space(const io::Soup& soup, const Array<Index>& vertices) {
@@ -62,9 +68,38 @@ void warn_of_facets(const io::Soup& soup, const io::SimplexBlock& cells, const F
     if (domain.facets_without_patch > 0) {
         listener.warning(
             fmt::format("{}: {} of {} boundary facets are in no physical group; they become the patch "
-                        "\"boundary\"",
+                        "\"boundary\"; to move some of them by themselves, put them into a group",
                         soup.path, domain.facets_without_patch, domain.mesh.boundary_patch.size()));
     }
+}
+
+/// Refuses hulls, and meshes that have no cells of the domain's dimension, with what they have.
+template<int D>
+void require_domain(const io::Soup& soup, const io::SimplexBlock& cells) {
+    if (soup.find_field_data("slab") != nullptr && soup.find_point_data("t") != nullptr) {
+        throw InputError(fmt::format(
+            "{}: this is the hull of a slab; give a mesh in space, such as a cap (cap_0001.vtu)", soup.path));
+    }
+    if (cells.size(D) > 0) {
+        return;
+    }
+    const std::string wants = fmt::format("{}: has no {}, which a domain of dimension {} is made of, but ",
+                                          soup.path, simplices_called(D), D);
+    if (D == 2 && !soup.simplices[3].vertices.empty()) {
+        throw InputError(fmt::format("{}{} tetrahedra; set dimension = 3", wants, soup.simplices[3].size(3)));
+    }
+    const std::size_t facets = soup.simplices[D - 1].size(D - 1);
+    if (facets == 0) {
+        throw InputError(fmt::format("{}no {} either; mesh the domain anew", wants, simplices_called(D - 1)));
+    }
+    throw InputError(fmt::format(
+        "{}{} {}; {}. If the {} is meant to be there: Gmsh saves what is in physical groups only, "
+        "so give it one, too",
+        wants, facets, simplices_called(D - 1),
+        D == 3 ? "set dimension = 2 if they are a plane domain, or give them under "
+                 "initial.surfaces if they are the surface of a body"
+               : "give them under initial.curves if they are the outline of a body",
+        D == 3 ? "volume" : "surface"));
 }
 
 template<int D>
@@ -106,6 +141,7 @@ Domain<D> domain_of_soup(const io::Soup& soup, const DomainOptions& options, con
     const io::SimplexBlock chosen =
         options.regions.empty() ? io::SimplexBlock{} : cells_of_regions<D>(soup, options.regions);
     const io::SimplexBlock& block = options.regions.empty() ? soup.simplices[D] : chosen;
+    require_domain<D>(soup, block);
     const UsedVertices used{soup.points.size(), block.vertices};
     DomainInput<D> input;
     input.where = soup.path;
@@ -132,8 +168,10 @@ Point<D> point_in_space(const io::Soup& soup, std::size_t v) {
     if constexpr (D == 2) {
         if (x[2] != soup.points[0][2]) {
             throw InputError(
-                fmt::format("{}: point {} has z = {}, but a plane mesh (dimension = 2) has one z", soup.path,
-                            soup.point_tag(v), x[2]),
+                fmt::format("{}: point {} has z = {}, but a plane mesh (dimension = 2) has one z, here {}; "
+                            "put the mesh "
+                            "into the plane of x and y, or set dimension = 3 for a mesh of tetrahedra",
+                            soup.path, soup.point_tag(v), x[2], soup.points[0][2]),
                 {{"vertex", soup.point_tag(v), ""}});
         }
         return {x[0], x[1]};

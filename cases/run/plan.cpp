@@ -2,6 +2,7 @@
 #include "slabhull/cases/plan.h"
 
 #include "cases/run/bodies.h"
+#include "cases/run/case_checks.h"
 #include "cases/run/cost.h"
 #include "geometry/meshing/cap_limits.h"
 #include "slabhull/cases/initial.h"
@@ -25,8 +26,9 @@ SpatialMesh<D> starting_boundary(const Case& the_case, const Listener& listener)
         StageClock clock;
         return initial_domain<D>(the_case, {}, listener, clock).mesh;
     }
-    Surface<D> surface = boundary_of_bodies<D>(std::get<InitialBodies>(the_case.initial), listener);
-    require_domain_boundary(surface, {"initial boundary", {}}, true);
+    FacetNaming naming;
+    Surface<D> surface = boundary_of_bodies<D>(std::get<InitialBodies>(the_case.initial), listener, naming);
+    require_domain_boundary(surface, naming, true);
     return boundary_alone<D>(std::move(surface));
 }
 
@@ -104,6 +106,8 @@ private:
 } // namespace
 
 CasePlan plan_case(const Case& the_case, const Listener& listener) {
+    require_files(the_case);
+    warn_of_turns(the_case, listener);
     return the_case.dimension == 2 ? Planner<2>{the_case, listener}.run()
                                    : Planner<3>{the_case, listener}.run();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/cases/run.h"
 
+#include "cases/run/case_checks.h"
 #include "cases/run/cost.h"
 #include "cases/run/earlier_run.h"
 #include "cases/run/journal.h"
@@ -228,8 +229,11 @@ private:
         }
         Checkpoint<D> checkpoint = read_checkpoint<D>(path);
         if (checkpoint.files.case_checksum != case_.checksum) {
-            listener_.warning(
-                fmt::format("the case file is not what it was when {} was written", path.string()));
+            listener_.warning(fmt::format(
+                "the case file is not what it was when {} was written: slabs that are there stay as they "
+                "are, and what is left to do follows the new file; to build all of it anew, run without "
+                "--resume",
+                path.string()));
         }
         journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
         journal_->each_line([this](const std::string& line) {
@@ -702,6 +706,8 @@ private:
 } // namespace
 
 RunResult run_case(const Case& the_case, const Listener& listener, const RunOptions& options) {
+    require_files(the_case);
+    warn_of_turns(the_case, listener);
     return the_case.dimension == 2 ? Runner<2>{the_case, options, listener}.run()
                                    : Runner<3>{the_case, options, listener}.run();
 }

@@ -269,7 +269,8 @@ private:
             const SpatialMesh<D> mesh = initial_domain<D>(the_case, ids, listener_, clock).mesh;
             measure<D>({mesh.points, mesh.boundary_facets, mesh.boundary_patch, mesh.patches});
         } else {
-            measure<D>(boundary_of_bodies<D>(std::get<InitialBodies>(the_case.initial), listener_));
+            FacetNaming naming;
+            measure<D>(boundary_of_bodies<D>(std::get<InitialBodies>(the_case.initial), listener_, naming));
         }
     }
 

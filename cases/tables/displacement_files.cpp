@@ -179,7 +179,9 @@ private:
                                   distance(table_.points[row], vertices_.points[first]));
         }
         refuse(first,
-               fmt::format("no row {}{}. So it is for {} of {} vertices; positions are those at the start",
+               fmt::format("no row {}{}. So it is for {} of {} vertices; give every vertex of the patch a "
+                           "row, with its place "
+                           "at the start",
                            table_.tracks.empty() ? fmt::format("is within the tolerance {:.6g}", tolerance_)
                                                  : "has its track",
                            nearest, missing_.size(), vertices_.points.size()));
@@ -340,8 +342,10 @@ std::vector<std::filesystem::path> files_of_pattern(const std::filesystem::path&
         }
     }
     if (by_number.empty()) {
-        throw UsageError(
-            fmt::format("there is no file with a number in place of the '*' of {}", pattern.string()));
+        throw UsageError(fmt::format("pattern: there is no file with a number in place of the '*' of {}; "
+                                     "check the path, which starts from the "
+                                     "folder of the case file",
+                                     pattern.string()));
     }
     std::vector<std::filesystem::path> files;
     for (const auto& [number, file] : by_number) {

@@ -2,6 +2,7 @@
 #include "cases/tables/motion_tables.h"
 
 #include "slabhull/core/error.h"
+#include "slabhull/core/text.h"
 #include "slabhull/geometry/rigid_table.h"
 #include "slabhull/io/files.h"
 
@@ -30,7 +31,8 @@ public:
     std::vector<double> numbers(const std::string& name) {
         const auto column = table_.find(name);
         if (!column) {
-            table_.fail_columns(fmt::format("there is no column \"{}\"", name));
+            table_.fail_columns(
+                fmt::format("there is no column \"{}\"{}", name, did_you_mean(name, table_.columns)));
         }
         known_.insert(name);
         std::vector<double> values(table_.rows());
@@ -46,8 +48,8 @@ public:
             return numbers(name);
         }
         if (!has_angle(name)) {
-            table_.fail_columns(
-                fmt::format("there is no column \"{0}\" (radians) or \"{0}_deg\" (degrees)", name));
+            table_.fail_columns(fmt::format(
+                "there is no column \"{0}\" (radians) or \"{0}_deg\" (degrees); name one so", name));
         }
         std::vector<double> values = numbers(name + "_deg");
         for (double& value : values) {
@@ -84,8 +86,8 @@ public:
     void require_all_known() const {
         for (const std::string& name : table_.columns) {
             if (!known_.contains(name)) {
-                table_.fail_columns(
-                    fmt::format("the column \"{}\" has no meaning beside the others of this motion", name));
+                table_.fail_columns(fmt::format(
+                    "the column \"{}\" has no meaning beside the others of this motion; leave it out", name));
             }
         }
         if (known_.size() < 2) {

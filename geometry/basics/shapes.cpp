@@ -415,8 +415,9 @@ template<int D>
 Surface<D> box_surface(const Point<D>& min, const Point<D>& max, double size, const Patch& patch) {
     const Lattice<D> divisions = box_divisions<D>(min, max, size);
     if (!(box_facet_count<D>(divisions) < no_index)) {
-        throw LimitError{fmt::format("a box from {} to {} with edges of size {} has more than 2^32 facets",
-                                     to_text(min), to_text(max), size)};
+        throw LimitError{fmt::format(
+            "a box from {} to {} with edges of size {} has more than 2^32 facets; give a larger size",
+            to_text(min), to_text(max), size)};
     }
     const BoundaryNumbering<D> number{divisions};
     Surface<D> surface;

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 namespace slabhull {
@@ -72,7 +73,12 @@ private:
     void require_nesting(const Boundary<D>& boundary) const;
 
     std::string ridge_in_words(const FacetDefect<D - 1>& defect) const;
-    void judge_component(Index facet, bool outer, bool any_outer, int winding) const;
+    void judge_component(const Boundary<D>& boundary, Index facet, const std::vector<double>& enclosed,
+                         int winding) const;
+    std::string whereabouts(const Boundary<D>& boundary, Index part,
+                            const std::vector<double>& enclosed) const;
+    template<class Takes>
+    std::string extent_in_words(const Takes& takes) const;
 
     const Surface<D>& surface_;
     FacetNames<D> names_;
@@ -143,8 +149,12 @@ void BoundaryInspection<D>::require_extent() const {
 template<int D>
 std::string BoundaryInspection<D>::ridge_in_words(const FacetDefect<D - 1>& defect) const {
     using Kind = typename FacetDefect<D - 1>::Kind;
-    const std::string where =
+    std::string where =
         fmt::format("the {} at {}", ridge_name, place_in_words(surface_.points[defect.facet[0]]));
+    if constexpr (D == 3) {
+        where = fmt::format("the edge from {} to {}", place_in_words(surface_.points[defect.facet[0]]),
+                            place_in_words(surface_.points[defect.facet[1]]));
+    }
     const std::string facets = names_.list(defect.cells);
     switch (defect.kind) {
     case Kind::open:
@@ -170,6 +180,10 @@ void BoundaryInspection<D>::require_closed(const Adjacency<D - 1>& adjacency) co
         const std::vector<Entity> facets = names_.entities(defects[k].cells);
         at_fault.insert(at_fault.end(), facets.begin(), facets.end());
     }
+    message += is_input_ ? "\nClose it there, or turn facets round; slabhull convert --weld TOLERANCE joins "
+                           "vertices that are "
+                           "only nearly in one place"
+                         : "";
     refuse(message, std::move(at_fault));
 }
 
@@ -224,6 +238,10 @@ void BoundaryInspection<D>::require_no_crossings() const {
         at_fault.push_back(names_.entity(pair.first));
         at_fault.push_back(names_.entity(pair.second));
     }
+    message += is_input_ ? "\nPart them, or make them one surface; slabhull convert --weld TOLERANCE joins "
+                           "vertices that are in "
+                           "one place, or nearly"
+                         : "";
     refuse(message, std::move(at_fault));
 }
 
@@ -232,7 +250,6 @@ void BoundaryInspection<D>::require_no_crossings() const {
 template<int D>
 void BoundaryInspection<D>::require_nesting(const Boundary<D>& boundary) const {
     const std::vector<double> enclosed = enclosed_by_components(boundary, surface_);
-    const bool any_outer = std::any_of(enclosed.begin(), enclosed.end(), [](double e) { return e > 0; });
     std::optional<BoxTree<D>> tree; // not needed for one component
     for (Index part = 0; part < enclosed.size(); ++part) {
         const Index facet = boundary.first_facet(part);
@@ -245,13 +262,50 @@ void BoundaryInspection<D>::require_nesting(const Boundary<D>& boundary) const {
             winding = winding_number<D>(surface_, *tree, place,
                                         [&](Index other) { return boundary.component(other) != part; });
         }
-        judge_component(facet, enclosed[part] > 0, any_outer, winding);
+        judge_component(boundary, facet, enclosed, winding);
     }
+}
+
+/// The box of the facets that `takes` takes: "(0, 0, 1) to (2, 3, 4)".
+template<int D>
+template<class Takes>
+std::string BoundaryInspection<D>::extent_in_words(const Takes& takes) const {
+    Point<D> low;
+    Point<D> high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (Index f = 0; f < surface_.facets.size(); ++f) {
+        if (takes(f)) {
+            for (const Index v : surface_.facets[f]) {
+                for (std::size_t k = 0; k < D; ++k) {
+                    low[k] = std::min(low[k], surface_.points[v][k]);
+                    high[k] = std::max(high[k], surface_.points[v][k]);
+                }
+            }
+        }
+    }
+    return fmt::format("{} to {}", place_in_words(low), place_in_words(high));
+}
+
+/// Where a body that is outside the domain is, and what to do about it.
+template<int D>
+std::string BoundaryInspection<D>::whereabouts(const Boundary<D>& boundary, Index part,
+                                               const std::vector<double>& enclosed) const {
+    const std::string own = extent_in_words([&](Index f) { return boundary.component(f) == part; });
+    const std::string outer = extent_in_words([&](Index f) { return enclosed[boundary.component(f)] > 0; });
+    return fmt::format(
+        "; it extends from {}, the outer boundary from {}. Move it or change the outer boundary; if they "
+        "are in different units, slabhull convert --scale changes those of a surface",
+        own, outer);
 }
 
 /// `facet`: the first of the component; `winding`: winding number of the other components around it.
 template<int D>
-void BoundaryInspection<D>::judge_component(Index facet, bool outer, bool any_outer, int winding) const {
+void BoundaryInspection<D>::judge_component(const Boundary<D>& boundary, Index facet,
+                                            const std::vector<double>& enclosed, int winding) const {
+    const Index part = boundary.component(facet);
+    const bool outer = enclosed[part] > 0;
+    const bool any_outer = std::any_of(enclosed.begin(), enclosed.end(), [](double e) { return e > 0; });
     if (winding == (outer ? 0 : 1)) {
         return;
     }
@@ -270,7 +324,8 @@ void BoundaryInspection<D>::judge_component(Index facet, bool outer, bool any_ou
             "is oriented inwards and no outer boundary surrounds it; turn its facets round or add the box";
     } else if (winding <= 0) {
         fault =
-            "bounds a body that lies outside the domain: outside the outer boundary, or inside another body";
+            "bounds a body that lies outside the domain: outside the outer boundary, or inside another body" +
+            (is_input_ ? whereabouts(boundary, part, enclosed) : std::string{});
     } else {
         fault = "bounds a body that lies inside several outer boundaries at once";
     }

@@ -37,7 +37,20 @@ std::string words_of(const mu::ParserError& error) {
     if (error.GetPos() >= 0 && words.find("position") == std::string::npos) {
         words += fmt::format(" at position {}", error.GetPos());
     }
+    if (!words.empty() && words.back() == '.') {
+        words.pop_back();
+    }
     return words;
+}
+
+/// What is wrong with a formula and how it is written; `variables`: "x, y, t".
+std::string fault_of(const mu::ParserError& error, const std::string& variables) {
+    if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN) {
+        return fmt::format("the name \"{}\" means nothing here; the variables are {}, further ones stand in "
+                           "constants = {{ name = 1.0 }}",
+                           error.GetToken(), variables);
+    }
+    return words_of(error) + "; write it as in -2 * y + sin(pi * t), powers with ^";
 }
 
 bool assigns(const mu::Parser& parser) {
@@ -110,13 +123,21 @@ private:
         }
     }
 
+    static std::string advice_on(const mu::ParserError& error) {
+        std::string variables = variable_name(0);
+        for (std::size_t i = 1; i <= D; ++i) {
+            variables += std::string{", "} + variable_name(i);
+        }
+        return fault_of(error, variables);
+    }
+
     /// Compiles by evaluating once: muParser parses at the first evaluation.
     static void compile(mu::Parser& parser, const std::string& formula) {
         try {
             parser.SetExpr(formula);
             parser.Eval();
         } catch (const mu::ParserError& error) {
-            refuse(formula, words_of(error));
+            refuse(formula, advice_on(error));
         }
         if (parser.GetNumResults() != 1) {
             refuse(formula, "one value expected, but commas separate several; the decimal sign is a point");
@@ -167,8 +188,10 @@ private:
         while (std::isfinite(v[i])) {
             ++i;
         }
-        throw GeometryError{fmt::format("velocity formula \"{}\" is {} at the point {} at t = {}",
-                                        formulas_[i], v[i], to_text(x), t)};
+        throw GeometryError{fmt::format(
+            "velocity formula \"{}\" is {} at the point {} at t = {}; change it so that it "
+            "is finite wherever the patch goes",
+            formulas_[i], std::isnan(v[i]) ? "no number" : "infinite (a division by zero?)", to_text(x), t)};
     }
 
     std::array<std::string, D> formulas_;

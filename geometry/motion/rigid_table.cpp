@@ -145,8 +145,9 @@ void require_ascending(const std::vector<double>& times) {
             refuse_row(i, fmt::format("the time {} is not finite", times[i]));
         }
         if (i > 0 && !(times[i - 1] < times[i])) {
-            refuse_row(i, fmt::format("its time {} is not after that of the row before, {}", times[i],
-                                      times[i - 1]));
+            refuse_row(i, fmt::format("its time {} is not after that of the row before, {}; put the rows in "
+                                      "order of time, one for each time",
+                                      times[i], times[i - 1]));
         }
     }
 }

@@ -70,7 +70,13 @@ AtomicFile::AtomicFile(const std::filesystem::path& path)
     constexpr mode_t for_all = 0666; // reduced by the umask
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, for_all);
     if (descriptor_ < 0) {
-        fail("cannot be created");
+        const int why = errno;
+        const std::filesystem::path folder = target_.parent_path();
+        std::error_code ignored;
+        throw OutputError(fmt::format("{}: cannot be created: {}; {}", path_.string(), std::strerror(why),
+                                      !folder.empty() && !std::filesystem::exists(folder, ignored)
+                                          ? fmt::format("make the folder {} first", folder.string())
+                                          : "give a place that can be written to"));
     }
     blocks_ = std::make_unique<BlockWriter>(descriptor_);
 }
@@ -165,7 +171,14 @@ void make_folder(const std::filesystem::path& folder) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     if (failure) {
-        throw OutputError(fmt::format("{}: {}", folder.string(), failure.message()));
+        std::error_code ignored;
+        const bool is_file =
+            std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored);
+        throw OutputError(
+            is_file ? fmt::format("{}: this is a file, where a folder is wanted; give another one with --out",
+                                  folder.string())
+                    : fmt::format("{}: the folder cannot be made: {}; give another one with --out",
+                                  folder.string(), failure.message()));
     }
 }
 

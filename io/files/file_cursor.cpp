@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/files/file_cursor.h"
 
+#include "slabhull/core/missing_file.h"
 #include "slabhull/core/progress.h"
 #include "slabhull/core/text.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -34,7 +36,9 @@ private:
 };
 
 [[noreturn]] void fail_reading(const std::filesystem::path& path) {
-    throw InputError(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+    const int why = errno;
+    throw InputError(
+        fmt::format("{}: cannot be read: {}{}", path.string(), std::strerror(why), look_again(path, why)));
 }
 
 } // namespace

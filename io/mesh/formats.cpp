@@ -2,10 +2,13 @@
 #include "slabhull/io/formats.h"
 
 #include "io/files/file_cursor.h"
+#include "io/mesh/content_advice.h"
 #include "io/mesh/left_out.h"
 #include "io/mesh/readers.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
@@ -347,6 +350,70 @@ void require_supported(const Format& format, const WriteOptions& options, const 
     }
 }
 
+namespace {
+
+std::string extensions_of_all() {
+    std::string all;
+    for (const Format& format : formats()) {
+        all += fmt::format("{}{}", all.empty() ? "" : " ", fmt::join(format.extensions, " "));
+    }
+    return all;
+}
+
+} // namespace
+
+namespace {
+
+/// Whether a file of text lacks the first words of its format, which STL, OBJ and TetGen's files need not
+/// have.
+bool begins_like_no(std::string_view format, const std::filesystem::path& path) {
+    constexpr std::size_t examined = 80;
+    const Format* named = format_named(format);
+    std::array<char, examined> start{};
+    std::ifstream file{path, std::ios::binary};
+    file.read(start.data(), examined);
+    const auto* end = start.begin() + file.gcount();
+    const bool text = std::all_of(
+        start.cbegin(), end, [](unsigned char c) { return std::isprint(c) != 0 || std::isspace(c) != 0; });
+    return text && start.front() != '#' && named != nullptr && !named->signatures.empty() && format != "stl";
+}
+
+} // namespace
+
+std::string content_advice(const std::filesystem::path& path, std::string_view format) {
+    std::error_code unreadable;
+    if (!std::filesystem::is_regular_file(path, unreadable)) {
+        return "";
+    }
+    if (std::filesystem::file_size(path, unreadable) == 0) {
+        return "; the file is empty: write it again";
+    }
+    const Format* content = format_of_content(path);
+    if (content == nullptr) {
+        return begins_like_no(format, path) ? "; it begins like no file that is read: export it anew" : "";
+    }
+    if (content->name == format) {
+        return "";
+    }
+    const bool family = content->extensions.front() == ".vtu" && format == "pvtu"; // one signature for both
+    return family ? ""
+                  : fmt::format(
+                        "; its content looks like {}: name it {}, or export it anew", content->title,
+                        std::filesystem::path{path}.replace_extension(content->extensions.front()).string());
+}
+
+Soup read_as(const Format& format, const std::filesystem::path& path, const ReadOptions& options) {
+    try {
+        return format.read(path, options);
+    } catch (const InputError& error) {
+        const std::string advice = content_advice(path, format.name);
+        if (advice.empty()) {
+            throw;
+        }
+        throw InputError(error.what() + advice, error.entities);
+    }
+}
+
 Soup read_mesh(const std::filesystem::path& path) {
     return read_mesh(path, ReadOptions{});
 }
@@ -357,10 +424,12 @@ Soup read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
         format = format_of_content(path);
     }
     if (format == nullptr) {
-        throw InputError(fmt::format(
-            "{}: neither the name nor the content is that of a mesh file that is read", path.string()));
+        throw InputError(
+            fmt::format("{}: neither the name nor the content is that of a mesh file that is read; mesh CAD "
+                        "models first, and export one of {}",
+                        path.string(), extensions_of_all()));
     }
-    return format->read(path, options);
+    return read_as(*format, path, options);
 }
 
 VtuEncoding vtu_encoding(const WriteOptions& options) {

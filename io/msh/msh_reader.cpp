@@ -54,8 +54,12 @@ private:
     // --- sections ---
 
     void read_section() {
+        const std::size_t start = in_.offset();
         const std::string_view line = in_.line();
         const std::string name{line.substr(0, line.find_last_not_of(" \t") + 1)};
+        if (version_ == Version::unknown && !name.starts_with('$')) {
+            in_.fail_at(start, "this is no MSH file: $MeshFormat was expected");
+        }
         require(name.size() > 1 && name[0] == '$', "a section's name, such as $Nodes, was expected");
         const bool heads = name == "$MeshFormat" || name == "$Comments";
         require(heads || version_ != Version::unknown, "this is no MSH file: $MeshFormat was expected");
@@ -321,8 +325,9 @@ private:
         const GmshSimplex simplex = gmsh_simplex(type);
         if (simplex.dimension < 0) {
             in_.fail(fmt::format(
-                "element {} is a {}; only points and straight lines, triangles and tetrahedra are read", tag,
-                gmsh_type_name(type)));
+                "element {} is a {}; only points and straight lines, triangles and tetrahedra are read; mesh "
+                "without recombination into quadrangles or hexahedra",
+                tag, gmsh_type_name(type)));
         }
         if (simplex.is_curved() && !options_.linear) {
             in_.fail(fmt::format("element {} is a {}; {}", tag, gmsh_type_name(type), how_to_take_corners));
@@ -489,7 +494,8 @@ private:
         const Index index = nodes_.find(node_tag);
         if (index == no_index) {
             in_.fail_at(byte,
-                        fmt::format("element {} names node {}, which does not exist", element_tag, node_tag));
+                        fmt::format("element {} names node {}, which does not exist; write the mesh again",
+                                    element_tag, node_tag));
         }
         return index;
     }

@@ -95,13 +95,23 @@ public:
             read_text();
         } else {
             in_.seek(0);
-            in_.fail(size < head_size ? "this is no STL file"
-                                      : fmt::format("{} facets take {} bytes, but the file has {}", count,
-                                                    binary_size, size));
+            in_.fail(size < head_size ? "this is no STL file: it is too short for one"
+                     : is_text(head)
+                         ? "this is no STL file: as text, it would begin with \"solid\"; export it anew"
+                         : fmt::format("{} facets take {} bytes, but the file has {}: it was {}; export or "
+                                       "copy it again",
+                                       count, binary_size, size,
+                                       size < binary_size ? "cut short" : "added to"));
         }
     }
 
 private:
+    /// Heads of binary files end with a count, of which one byte at least is no letter.
+    static bool is_text(std::string_view head) {
+        return std::all_of(head.begin(), head.end(),
+                           [](unsigned char c) { return std::isprint(c) != 0 || std::isspace(c) != 0; });
+    }
+
     void read_binary() {
         for (std::size_t facet = 0; in_.remaining() > 0; ++facet) {
             const char* bytes = in_.take(facet_size, "a facet") + 3 * sizeof(float); // the normal

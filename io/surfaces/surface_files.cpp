@@ -2,6 +2,7 @@
 #include "slabhull/io/files.h"
 
 #include "io/files/file_cursor.h"
+#include "io/mesh/content_advice.h"
 #include "io/surfaces/surface_readers.h"
 
 #include <fmt/format.h>
@@ -25,7 +26,9 @@ Reader reader_of(const std::filesystem::path& path, std::string_view extension) 
     if (extension == ".ply") {
         return read_ply;
     }
-    throw InputError(fmt::format("{}: a surface file .stl, .off, .obj or .ply was expected", path.string()));
+    throw InputError(fmt::format("{}: a surface file .stl, .off, .obj or .ply, or a mesh of triangles (.msh, "
+                                 ".vtu ..), was expected; export one",
+                                 path.string()));
 }
 
 } // namespace
@@ -38,7 +41,12 @@ Soup read_surface_as(const std::filesystem::path& path, std::string_view extensi
     const Reader read = reader_of(path, extension);
     FileBytes file{path};
     SurfaceBuilder surface;
-    read(file, surface);
+    try {
+        read(file, surface);
+    } catch (const InputError& error) {
+        const std::string advice = content_advice(path, extension.substr(1));
+        throw InputError(error.what() + advice, error.entities);
+    }
     if (surface.triangles() == 0) {
         throw InputError(fmt::format("{}: there are no triangles", path.string()));
     }

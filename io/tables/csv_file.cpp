@@ -91,7 +91,7 @@ private:
             line = without_blanks(line.substr(1));
         }
         if (line.empty()) {
-            fail("a line with the names of the columns was expected, but the file is empty");
+            fail("a line with the names of the columns was expected, but the file is empty; write it again");
         }
         const std::string_view start = line.substr(0, most_columns * (longest_name + 1));
         separator_ = start.find(',') != start.npos ? ',' : start.find(';') != start.npos ? ';' : ' ';
@@ -103,8 +103,10 @@ private:
     void add_column(std::string_view name) {
         double number = 0;
         if (!is_name(name) || parse_number(name, number)) {
-            fail(fmt::format("the name of column {} was expected, not {}", table_.columns.size() + 1,
-                             in_quotes(name)));
+            fail(fmt::format(
+                "the name of column {} was expected, not {}; the first line names the columns, such as "
+                "time, angle",
+                table_.columns.size() + 1, in_quotes(name)));
         }
         if (table_.find(name)) {
             fail(fmt::format("there are two columns {}", in_quotes(name)));
@@ -119,14 +121,18 @@ private:
         const std::size_t count = table_.columns.size();
         for (std::size_t column = 0; column < count; ++column) {
             if (line.empty()) {
-                fail(fmt::format("column {} is missing: {} values where the header names {} columns",
-                                 in_quotes(table_.columns[column]), column, count));
+                fail(fmt::format(
+                    "column {} is missing: {} values where the header names {} columns; give a value for "
+                    "each",
+                    in_quotes(table_.columns[column]), column, count));
             }
             table_.values.push_back(number_in(next_field(line, separator_), column));
         }
         if (!line.empty()) {
-            fail(fmt::format("more than the {} values that the header names columns for: {}", count,
-                             in_quotes(line)));
+            fail(fmt::format(
+                "more than the {} values that the header names columns for: {}; numbers have a decimal "
+                "point, and commas part them",
+                count, in_quotes(line)));
         }
         table_.lines.push_back(line_);
     }
@@ -134,8 +140,10 @@ private:
     double number_in(std::string_view field, std::size_t column) const {
         double value = 0;
         if (!parse_number(field, value) || !std::isfinite(value)) {
-            fail(fmt::format("column {}: a finite number was expected, not {}",
-                             in_quotes(table_.columns[column]), in_quotes(field)));
+            const bool comma = field.find(',') != field.npos;
+            fail(fmt::format("column {}: a finite number was expected, not {}{}",
+                             in_quotes(table_.columns[column]), in_quotes(field),
+                             comma ? "; write numbers with a decimal point" : ""));
         }
         return value;
     }

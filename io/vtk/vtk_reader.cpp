@@ -329,8 +329,10 @@ private:
         const std::size_t cell = cells_.types.size();
         const int dimension = vtk_simplex_dimension(type);
         if (dimension < 0) {
-            in_.fail(fmt::format("cell {} is a {}; only vertices, lines, triangles and tetrahedra are read",
-                                 cell, vtk_type_name(type)));
+            in_.fail(
+                fmt::format("cell {} is a {}; only vertices, lines, triangles and tetrahedra are read; mesh "
+                            "with simplices, or split these cells",
+                            cell, vtk_type_name(type)));
         }
         if (vtk_is_curved(type) && !options_.linear) {
             in_.fail(fmt::format("cell {} is a {}; {}", cell, vtk_type_name(type), how_to_take_corners));

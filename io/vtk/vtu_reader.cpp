@@ -429,8 +429,10 @@ private:
     std::uint8_t require_type(const pugi::xml_node& node, std::uint64_t cell, std::int64_t type) const {
         const int number = static_cast<int>(type & 0xFF);
         if (type != number || vtk_simplex_dimension(number) < 0) {
-            fail(node, fmt::format("cell {} is a {}; only vertices, lines, triangles and tetrahedra are read",
-                                   cell, vtk_type_name(number)));
+            fail(node,
+                 fmt::format("cell {} is a {}; only vertices, lines, triangles and tetrahedra are read; mesh "
+                             "with simplices, or split these cells",
+                             cell, vtk_type_name(number)));
         }
         if (vtk_is_curved(number) && !options_.linear) {
             fail(node, fmt::format("cell {} is a {}; {}", cell, vtk_type_name(number), how_to_take_corners));

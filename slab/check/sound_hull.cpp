@@ -21,7 +21,7 @@ void require_clean(const HullReport& report, const std::string& name) {
     const std::string what =
         crosses ? "crosses itself between two levels" : fmt::format("has {} defects", report.total());
     const char* advice = crosses ? "Layers that are shorter in time, or another split of the side, may help: "
-                                   "without time.layers and time.spacing, layers follow from the motion\n"
+                                   "without time.layers and time.spacing, layers follow from the motion"
                                  : "";
     throw GeometryError{
         fmt::format("{} {} and was not written:\n{}{}", name, what, findings_as_text(report), advice),
@@ -34,11 +34,13 @@ template<int D>
 SoundHull require_sound_hull(const Hull<D>& hull, const std::string& name, bool embedding,
                              StageClock& clock) {
     const HullColumns<D> columns = columns_of(hull);
-    SoundHull sound{check_hull<D>(columns), {}};
+    CheckOptions options;
+    options.most_findings = 5; // in a message; the program's check lists more
+    SoundHull sound{check_hull<D>(columns, options), {}};
     clock.book("checking");
     require_clean(sound.report, name);
     if (embedding) {
-        sound.embedding = check_embedding<D>(columns, {}, sound.report);
+        sound.embedding = check_embedding<D>(columns, options, sound.report);
         clock.book("embedding");
         require_clean(sound.report, name);
     }

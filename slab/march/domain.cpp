@@ -72,8 +72,8 @@ public:
         found_.push_back(numbers_.empty() ? static_cast<std::int64_t>(i) : numbers_[i]);
     }
 
-    /// Throws if there are any: "<where>: <count> <what>: <the first numbers>".
-    void refuse(const std::string& where, const std::string& what) const {
+    /// Throws if there are any: "<where>: <count> <what>: <the first numbers><advice>".
+    void refuse(const std::string& where, const std::string& what, const char* advice = "") const {
         if (found_.empty()) {
             return;
         }
@@ -81,7 +81,7 @@ public:
         for (const std::int64_t number : found_) {
             entities.push_back({kind_, number, ""});
         }
-        throw InputError(fmt::format("{}: {} {}: {}", where, found_.size(), what, listed(found_)),
+        throw InputError(fmt::format("{}: {} {}: {}{}", where, found_.size(), what, listed(found_), advice),
                          std::move(entities));
     }
 
@@ -197,7 +197,8 @@ private:
                 std::swap(mesh_.cells[c][0], mesh_.cells[c][1]);
             }
         }
-        inverted.refuse(input_.where, "inverted cells (oriented against the others of their entity)");
+        inverted.refuse(input_.where, "inverted cells (oriented against the others of their entity)",
+                        "; turn them round: swap two of their corners");
     }
 
     std::int32_t group(std::size_t cell) const {

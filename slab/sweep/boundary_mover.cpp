@@ -245,7 +245,9 @@ void BoundaryMover<D>::require_room(const Crease& crease, std::span<const double
         const std::string message = fmt::format(
             "projection of {} at t = {:.9g} would move {} vertices by more than half of their "
             "shortest edge, the farthest, vertex {} at ({:.6g}), by {:.4g} with an edge of {:.4g}; "
-            "check that the projection surface is that of the patch, or shorten the layers",
+            "check that the projection surface is that of the patch and that angles of its motion are in "
+            "radians, or "
+            "shorten the layers",
             names(crease.patches), to, too_far.size(), sweep_.boundary.mesh_vertices()[v],
             fmt::join(places[v], ", "), moved[worst], room[v]);
         throw GeometryError(message, std::move(too_far));

@@ -187,7 +187,7 @@ TEST_CASE("a formula that is not one plain expression is refused with muParser's
     CHECK_THAT(complaint_about("x + * y"), Catch::Contains("\"x + * y\"") && Catch::Contains("position 4"));
     CHECK_THAT(complaint_about("sin(x"),
                Catch::Contains("Missing parenthesis") && Catch::Contains("position"));
-    CHECK_THAT(complaint_about("2*speed"), Catch::Contains("\"speed\" found at position 2"));
+    CHECK_THAT(complaint_about("2*speed"), Catch::Contains("the name \"speed\" means nothing here"));
     CHECK_THAT(complaint_about(""), Catch::Contains("empty"));
     CHECK_THAT(complaint_about("z"), Catch::Contains("\"z\"")); // not a coordinate of the plane
     CHECK_THAT(complaint_about("1,5*x"), Catch::Contains("commas"));

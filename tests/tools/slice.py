@@ -217,10 +217,10 @@ class Refusals(SliceTest):
         hull = self.hull()
         out = ("--out", self.dir / "s")
         for option, time, words in (("--time", "noon", ["--time", "noon"]), ("--time", "nan", ["finite"]),
-                                    ("--time", "0.2x", ["0.2x"]), ("--time", "0.7", ["t = 0.7", "[0, 0.5]"]),
+                                    ("--time", "0.2x", ["0.2x"]), ("--time", "0.7", ["t = 0.7", "from 0 to 0.5"]),
                                     ("--time", "-1e-9", ["none of the files"]), ("--times", "0:1", ["first:last"]),
                                     ("--times", "0:1:1", ["2 to"]), ("--times", "0:1:1e9", ["2 to"]),
-                                    ("--times", "0:1:3", ["t = 1", "[0, 0.5]"]), ("--times", "0,,1", ["\"\""]),
+                                    ("--times", "0:1:3", ["t = 1", "from 0 to 0.5"]), ("--times", "0,,1", ["\"\""]),
                                     ("--times", "", [])):
             self.refuse(2, words, hull, option, time, *out)
         self.refuse(2, [], hull, *out)

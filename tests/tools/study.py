@@ -245,15 +245,15 @@ class Refusals(ProgramTest):
     def test_bad_arguments_are_wrong_usage_and_leave_nothing_behind(self):
         out = ("--out", self.dir / "out")
         self.fails(USAGE, "tandem-ellipsoids", "square", *out)
-        self.fails(USAGE, "levels 1 to 8", "sphere", "--levels", "9", *out)
-        self.fails(USAGE, "levels 1 to 8", "sphere", "--levels", "7-9", *out)
+        self.fails(USAGE, "from 1 to 8", "sphere", "--levels", "9", *out)
+        self.fails(USAGE, "from 1 to 8", "sphere", "--levels", "7-9", *out)
         for levels in ("0", "x", "2-1", "1-", "-3", "1,2"):
             self.fails(USAGE, "--levels", "circle", f"--levels={levels}", *out)
         self.fails(USAGE, "centre", "circle", "--split", "A", *out)
         self.fails(USAGE, "A", "sphere", "--split", "C,,E", *out)
         self.fails(USAGE, "--out", "circle")
         self.fails(USAGE, "--threads", "circle", "--threads", "-1", *out)
-        self.fails(USAGE, "levels 1 to", "all", "--levels", "10-12", *out)
+        self.fails(USAGE, "from 1 to", "all", "--levels", "10-12", *out)
 
     def test_an_output_directory_that_cannot_be_made(self):
         (self.dir / "file").write_text("")

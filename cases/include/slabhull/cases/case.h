@@ -123,6 +123,7 @@ struct FillSpec {
 /// other files.
 struct Case {
     std::string title;
+    std::filesystem::path file; ///< that it stands in, for messages; empty where there is none
     std::uint32_t checksum = 0; ///< of the file's bytes
     int dimension = 3;
     std::string experiment; ///< empty unless it is one

@@ -104,6 +104,9 @@ std::span<const Format> formats_left_out();
 /// nullptr: none.
 const Format* format_named(std::string_view name);
 const Format* format_of_extension(const std::filesystem::path& path);
+/// Reads a file in a format. What is wrong with a file that is empty, or looks like one of another format,
+/// says so, too. Throws InputError.
+Soup read_as(const Format& format, const std::filesystem::path& path, const ReadOptions& options = {});
 /// The format whose signature the file starts with; nullptr: none. Throws InputError.
 const Format* format_of_content(const std::filesystem::path& path);
 

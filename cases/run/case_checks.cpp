@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/run/case_checks.h"
+
+#include "slabhull/core/error.h"
+#include "slabhull/core/missing_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace slabhull {
+
+namespace {
+
+/// `key` is the file's key in the case file.
+void require_file(const Case& the_case, const std::string& key, const std::filesystem::path& file) {
+    std::error_code ignored;
+    const bool folder = std::filesystem::is_directory(file, ignored);
+    if (file.empty() || (std::filesystem::exists(file, ignored) && !folder)) {
+        return;
+    }
+    const int why = folder ? EISDIR : ENOENT;
+    throw InputError(fmt::format(
+        "{}{}: {}: cannot be read: {}{}{}", the_case.file.empty() ? "" : the_case.file.string() + ": ", key,
+        file.string(), std::strerror(why), folder ? "" : " (paths in a case file start from its own folder)",
+        look_again(file, why)));
+}
+
+void require_files_of_motion(const Case& the_case, const std::string& key, const MotionSpec& motion) {
+    require_file(the_case, key + (motion.kind == MotionSpec::Kind::rigid_table ? ".file" : ".table"),
+                 motion.table);
+    for (std::size_t k = 0; k < motion.displacements.files.size(); ++k) {
+        require_file(the_case, fmt::format("{}.files[{}]", key, k), motion.displacements.files[k]);
+    }
+    for (std::size_t k = 0; k < motion.steps.size(); ++k) {
+        require_files_of_motion(the_case, fmt::format("{}.steps[{}]", key, k), motion.steps[k]);
+    }
+}
+
+void require_files_of_bodies(const Case& the_case, const InitialBodies& bodies) {
+    const char* list = the_case.dimension == 3 ? "surfaces" : "curves";
+    for (std::size_t k = 0; k < bodies.files.size(); ++k) {
+        require_file(the_case, fmt::format("initial.{}[{}].file", list, k), bodies.files[k].file);
+    }
+    if (const auto* outer = std::get_if<BodyFile>(&bodies.outer)) {
+        require_file(the_case, "initial.outer.file", outer->file);
+    }
+}
+
+/// The longest that a layer lasts: the whole slab, where layers follow from the motion.
+double longest_layer(const Case& the_case) {
+    const double slab = (the_case.end - the_case.start) / the_case.slabs;
+    return the_case.layers    ? slab / *the_case.layers
+           : the_case.spacing ? std::min(slab, *the_case.spacing)
+                              : slab;
+}
+
+void warn_of_turn(const Case& the_case, const std::string& key, const MotionSpec& motion,
+                  const Listener& listener) {
+    const bool follows = the_case.layers_follow_motion();
+    const double layer = longest_layer(the_case);
+    const double turns = std::abs(motion.rate) * layer / (2 * std::numbers::pi);
+    // With layers by the motion, several turns in a slab are as good as one; so only what looks like degrees
+    // is told.
+    const bool like_degrees = std::fmod(motion.rate, 15) == 0;
+    if (motion.kind == MotionSpec::Kind::rotation && (follows ? like_degrees && turns > 2 : turns > 0.5)) {
+        listener.warning(
+            fmt::format("{}.rate: {} radians per unit of time are {:.3g} turns in {} from t = {} to {}; if "
+                        "degrees were meant, give {:.6g}",
+                        key, motion.rate, turns, follows ? "the slab" : "the layer", the_case.start,
+                        the_case.start + layer, motion.rate * std::numbers::pi / 180));
+    }
+    for (std::size_t k = 0; k < motion.steps.size(); ++k) {
+        warn_of_turn(the_case, fmt::format("{}.steps[{}]", key, k), motion.steps[k], listener);
+    }
+}
+
+} // namespace
+
+void require_files(const Case& the_case) {
+    if (const auto* mesh = std::get_if<InitialMesh>(&the_case.initial)) {
+        require_file(the_case, "initial.mesh", mesh->file);
+    } else {
+        require_files_of_bodies(the_case, std::get<InitialBodies>(the_case.initial));
+    }
+    for (const auto& [patch, motion] : the_case.motions) {
+        require_files_of_motion(the_case, "motion." + patch, motion);
+    }
+    for (const auto& [patch, projection] : the_case.projections) {
+        require_file(the_case, fmt::format("project.{}.file", patch), projection.file);
+    }
+}
+
+void warn_of_turns(const Case& the_case, const Listener& listener) {
+    for (const auto& [patch, motion] : the_case.motions) {
+        warn_of_turn(the_case, "motion." + patch, motion, listener);
+    }
+}
+
+} // namespace slabhull

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What can be said of a case before its files are read.
+#pragma once
+
+#include "slabhull/cases/case.h"
+#include "slabhull/core/message.h"
+
+namespace slabhull {
+
+/// Throws InputError, naming the key, for a file of the case that is not there.
+void require_files(const Case& the_case);
+
+/// Warns of rotations that turn so far that their rate was hardly meant to be in radians.
+void warn_of_turns(const Case& the_case, const Listener& listener);
+
+} // namespace slabhull
