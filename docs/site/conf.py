@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Settings of Sphinx for the documentation site. The target `site` runs it on the pages that prepare.py gathered."""
 import os
+import re
 
 import sphinx.domains.cpp
 import sphinx.util.logging
@@ -54,7 +55,7 @@ def remember_ids():
 def public_names(app, what, name, obj, options, signature, returns):
     """Signatures say slabhull.Motion, not the extension module behind it."""
     def shown(text):
-        return text and text.replace("slabhull._slabhull.", "").replace("self: ", "")
+        return text and re.sub(r"\(self: [\w.]+(, )?", "(", text).replace("slabhull._slabhull.", "")
     return shown(signature), shown(returns)
 
 

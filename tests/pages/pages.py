@@ -39,7 +39,7 @@ from blocks import PageError, read_blocks
 
 HERE = Path(__file__).resolve().parent
 ROOT = Path(os.environ.get("SLABHULL_ROOT", HERE.parent.parent))
-PYTHON = "/usr/bin/python3"
+PYTHON = sys.executable
 TIMEOUT = 300
 MOST_SLABS = 4
 SKIPPED = 77  # ctest's SKIP_RETURN_CODE
@@ -278,6 +278,8 @@ class Runner:
         if self.python is not None:
             self.python.stdin.close()
             self.python.wait(60)
+            self.answers.close()
+            self.log.close()
 
 
 def run_page(page, tell=print):
