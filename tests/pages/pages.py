@@ -316,6 +316,11 @@ def run_page(page, tell=print):
     return run, failed, left_out, skipped
 
 
+def seconds_used():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def main():
     if not sys.argv[1:]:
         raise SystemExit(__doc__)
@@ -324,18 +329,18 @@ def main():
         pages += pages_of(argument) if argument in ("start", "how-to", "reference") else [Path(argument).resolve()]
     total, total_failed, all_left_out, all_skipped = 0, 0, [], []
     for page in pages:
+        before = seconds_used()
         run, failed, left_out, skipped = run_page(page)
         print(f"{page.relative_to(ROOT) if page.is_relative_to(ROOT) else page}: {run} run, {len(left_out)} left out, "
-              f"{len(skipped)} skipped, {failed} failed", flush=True)
+              f"{len(skipped)} skipped, {failed} failed; {seconds_used() - before:.1f} s", flush=True)
         total, total_failed = total + run, total_failed + failed
         all_left_out += left_out
         all_skipped += skipped
     for title, some in (("left out", all_left_out), ("skipped", all_skipped)):
         for here, why in some:
             print(f"{title}: {here}: {why}")
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
     print(f"{len(pages)} pages, {total} blocks run, {len(all_left_out)} left out, {len(all_skipped)} skipped, "
-          f"{total_failed} failed; {used.ru_utime + used.ru_stime:.0f} s of CPU")
+          f"{total_failed} failed; {seconds_used():.0f} s of CPU")
     if total_failed:
         return 1
     return SKIPPED if total == 0 and all_skipped else 0
