@@ -127,11 +127,11 @@ void bind_case_class(py::module_& module) {
              "`directory`.")
         .def_static("experiment", &experiment_case, py::arg("name"), py::arg("level") = 1,
                     "One of the paper's experiments.")
-        .def_readonly("title", &Case::title)
-        .def_readonly("dimension", &Case::dimension)
-        .def_readonly("start", &Case::start)
-        .def_readonly("end", &Case::end)
-        .def_readonly("slabs", &Case::slabs)
+        .def_readonly("title", &Case::title, "The title, \"\" for none.")
+        .def_readonly("dimension", &Case::dimension, "D, that of space.")
+        .def_readonly("start", &Case::start, "The time at which the first slab begins.")
+        .def_readonly("end", &Case::end, "The time at which the last slab ends.")
+        .def_readonly("slabs", &Case::slabs, "The number of slabs.")
         .def_property(
             "directory", [](const Case& self) { return self.directory; },
             [](Case& self, const std::filesystem::path& directory) { self.directory = directory; },
@@ -158,10 +158,13 @@ void bind_case(py::module_& module) {
                 py::arg("patch_array") = "", py::arg("dimension") = py::none(),
                 "From a mesh file of any format; see [initial] in docs/case-file.md. Without "
                 "`dimension` the file is read twice."));
-    module.def("experiment_names", [] {
-        const auto names = experiment_names();
-        return std::vector<std::string>(names.begin(), names.end());
-    });
+    module.def(
+        "experiment_names",
+        [] {
+            const auto names = experiment_names();
+            return std::vector<std::string>(names.begin(), names.end());
+        },
+        "The names of the paper's six experiments.");
 }
 
 } // namespace slabhull::python

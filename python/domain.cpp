@@ -79,22 +79,31 @@ void bind_cap(py::module_& module) {
     };
     py::class_<Cap>(module, "SpatialMesh",
                     "A mesh of the domain at an instant. Its arrays are read-only views, without a copy.")
-        .def_property_readonly("dimension", [](const Cap& self) { return dimension_of(self.mesh); })
-        .def_property_readonly("points", array([](const auto& m, Owner o) { return rows_of(m.points, o); }))
-        .def_property_readonly("cells", array([](const auto& m, Owner o) { return rows_of(m.cells, o); }))
-        .def_property_readonly("neighbors",
-                               array([](const auto& m, Owner o) { return neighbors_of(m.neighbors, o); }))
+        .def_property_readonly(
+            "dimension", [](const Cap& self) { return dimension_of(self.mesh); }, "D, that of space.")
+        .def_property_readonly("points", array([](const auto& m, Owner o) { return rows_of(m.points, o); }),
+                               "(n, D). A view.")
+        .def_property_readonly("cells", array([](const auto& m, Owner o) { return rows_of(m.cells, o); }),
+                               "(m, D + 1) uint32, positively oriented. A view.")
+        .def_property_readonly(
+            "neighbors", array([](const auto& m, Owner o) { return neighbors_of(m.neighbors, o); }),
+            "(m, D + 1) int32, the cell opposite to each vertex, -1 across the boundary. A view.")
         .def_property_readonly("boundary_facets",
-                               array([](const auto& m, Owner o) { return rows_of(m.boundary_facets, o); }))
+                               array([](const auto& m, Owner o) { return rows_of(m.boundary_facets, o); }),
+                               "(k, D) uint32, outward. A view.")
         .def_property_readonly("boundary_patch", array([](const auto& m, Owner o) {
                                    return list_of(std::span{m.boundary_patch}, o);
-                               }))
+                               }),
+                               "The patch of each boundary facet. A view.")
         .def_property_readonly(
-            "vertex_ids", array([](const auto& m, Owner o) { return list_of(std::span{m.vertex_ids}, o); }))
+            "vertex_ids", array([](const auto& m, Owner o) { return list_of(std::span{m.vertex_ids}, o); }),
+            "Persistent ids, int64. A view.")
         .def_property_readonly(
-            "track_ids", array([](const auto& m, Owner o) { return list_of(std::span{m.track_ids}, o); }))
+            "track_ids", array([](const auto& m, Owner o) { return list_of(std::span{m.track_ids}, o); }),
+            "Tracks, int64, -1 for none. A view.")
         .def_property_readonly("patches",
-                               array([](const auto& m, const Owner&) { return as_dict(m.patches); }));
+                               array([](const auto& m, const Owner&) { return as_dict(m.patches); }),
+                               "{number: name}");
 }
 
 } // namespace
@@ -119,7 +128,9 @@ void bind_domain(py::module_& module) {
             "boundary facets (k, D) that belong to patches, either {name: facets}, or facets with the patch "
             "number of each and the names {number: name}. Other boundary facets become the patch "
             "\"boundary\". Raises InputError naming points, cells and facets at fault.")
-        .def_property_readonly("dimension", [](const StartDomain& self) { return dimension_of(self.domain); })
+        .def_property_readonly(
+            "dimension", [](const StartDomain& self) { return dimension_of(self.domain); },
+            "D, that of space.")
         .def_property_readonly("mesh", &StartDomain::mesh, "The SpatialMesh.")
         .def_property_readonly(
             "facets_without_patch",

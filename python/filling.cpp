@@ -98,8 +98,9 @@ void bind_views(FillingClass& filling) {
 
 void bind_rest(FillingClass& filling) {
     filling
-        .def_property_readonly("dimension",
-                               [](const SharedFilling& self) { return dimension_of(self.filling); })
+        .def_property_readonly(
+            "dimension", [](const SharedFilling& self) { return dimension_of(self.filling); },
+            "D, that of space; cells have D + 2 corners.")
         .def_property_readonly(
             "vertex_ids", of_filling([](const auto& f, const Owner&) { return integers_of(f.vertex_ids); }),
             "int64, -1 for vertices inside. Made at each call.")
@@ -107,15 +108,20 @@ void bind_rest(FillingClass& filling) {
             "track_ids", of_filling([](const auto& f, const Owner&) { return integers_of(f.track_ids); }),
             "int64, -1 for none. Made at each call.")
         .def_property_readonly("patches",
-                               of_filling([](const auto& f, const Owner&) { return as_dict(f.patches); }))
+                               of_filling([](const auto& f, const Owner&) { return as_dict(f.patches); }),
+                               "{number: name}")
         .def_property_readonly("hull_points",
-                               of_filling([](const auto& f, const Owner&) { return f.hull_points; }))
+                               of_filling([](const auto& f, const Owner&) { return f.hull_points; }),
+                               "How many points are the hull's; these come first.")
         .def_property_readonly("steiner_points",
-                               of_filling([](const auto& f, const Owner&) { return f.steiner_points; }))
-        .def_property_readonly("slab", of_filling([](const auto& f, const Owner&) { return f.slab; }))
+                               of_filling([](const auto& f, const Owner&) { return f.steiner_points; }),
+                               "How many points were put inside prisms and cavities.")
+        .def_property_readonly("slab", of_filling([](const auto& f, const Owner&) { return f.slab; }),
+                               "The number of the slab.")
         .def_property_readonly("time", of_filling([](const auto& f, const Owner&) {
                                    return std::make_pair(f.time[0], f.time[1]);
-                               }))
+                               }),
+                               "Start and end of the slab.")
         .def("write", &write, py::arg("path"), py::arg("format") = "",
              py::arg("pentatope_code") = io::usual_pentatope_code,
              "Writes MFEM, GetFEM or HDF5, in 2D+t also VTU or MSH, by extension or by name.")

@@ -87,11 +87,13 @@ void bind_columns(HullClass& hull) {
 
 void bind_counts(HullClass& hull) {
     hull.def_property_readonly("dimension", &SharedHull::dimension, "D, that of space.")
-        .def_property_readonly("slab", of_hull([](const auto& h, const Owner&) { return h.slab; }))
+        .def_property_readonly("slab", of_hull([](const auto& h, const Owner&) { return h.slab; }),
+                               "The number of the slab.")
         .def_property_readonly(
             "time", of_hull([](const auto& h, const Owner&) { return std::make_pair(h.time[0], h.time[1]); }),
             "Start and end of the slab.")
-        .def_property_readonly("layers", of_hull([](const auto& h, const Owner&) { return h.layers; }))
+        .def_property_readonly("layers", of_hull([](const auto& h, const Owner&) { return h.layers; }),
+                               "The number of layers of the side.")
         .def_property_readonly("patches",
                                of_hull([](const auto& h, const Owner&) { return as_dict(h.patches); }),
                                "{number: name}")
@@ -102,11 +104,14 @@ void bind_counts(HullClass& hull) {
                                of_hull([](const auto& h, const Owner&) { return h.side_cells; }),
                                "Number of cells of the side, which come next.")
         .def_property_readonly("initial_points",
-                               of_hull([](const auto& h, const Owner&) { return h.initial_points; }))
+                               of_hull([](const auto& h, const Owner&) { return h.initial_points; }),
+                               "Number of points of the initial cap, which come first.")
         .def_property_readonly("side_points",
-                               of_hull([](const auto& h, const Owner&) { return h.side_points; }))
+                               of_hull([](const auto& h, const Owner&) { return h.side_points; }),
+                               "Number of points that the side adds, which come next.")
         .def_property_readonly("cells_per_prism",
-                               of_hull([](const auto& h, const Owner&) { return h.cells_per_prism; }))
+                               of_hull([](const auto& h, const Owner&) { return h.cells_per_prism; }),
+                               "Simplices that a boundary facet leaves in each layer.")
         .def("__repr__", of_hull([](const auto& h, const Owner&) { return described(h); }));
 }
 

@@ -216,7 +216,7 @@ auto of_slab(Read read) {
 
 void bind_slab(py::module_& module) {
     py::class_<SharedSlab>(module, "Slab", "A slab that a march proposed: its hull, and how it was made.")
-        .def_property_readonly("hull", &SharedSlab::hull)
+        .def_property_readonly("hull", &SharedSlab::hull, "The Hull, the boundary of the slab.")
         .def_property_readonly("cap_moved", of_slab([](const auto& slab) { return slab.cap_moved; }),
                                "The terminating cap is the initial one, moved.")
         .def_property_readonly("moved_angle", of_slab([](const auto& slab) { return slab.moved_angle; }),
@@ -256,7 +256,7 @@ void bind_march(py::module_& module) {
              py::arg("domain"), py::arg("time") = 0.0, py::arg("motions") = py::dict{},
              py::arg("on_progress") = py::none(),
              "motions: {patch: motion}, see move(); settings by name, see configure().")
-        .def_property_readonly("dimension", &SharedMarch::dimension)
+        .def_property_readonly("dimension", &SharedMarch::dimension, "D, that of space.")
         .def_property_readonly("time", &SharedMarch::time, "The time from which the next slab goes.")
         .def_property_readonly("slab", &SharedMarch::slab, "The number of the next slab.")
         .def_property_readonly("cap", &SharedMarch::cap, "The next slab's initial cap.")

@@ -240,11 +240,14 @@ void bind_mesh(py::module_& module) {
         .def("simplex_groups", groups_of, py::arg("dimension"), "The group of each of these; 0 for none.")
         .def_property_readonly("groups", names_of_groups, "{dimension: {number: name}}")
         .def_property_readonly(
-            "point_data", [](const SharedMesh& self) { return all_shown(self.soup->point_data, self.soup); })
+            "point_data", [](const SharedMesh& self) { return all_shown(self.soup->point_data, self.soup); },
+            "{name: array} over points.")
         .def_property_readonly(
-            "cell_data", [](const SharedMesh& self) { return all_shown(self.soup->cell_data, self.soup); })
+            "cell_data", [](const SharedMesh& self) { return all_shown(self.soup->cell_data, self.soup); },
+            "{name: array} over the simplices of the top dimension.")
         .def_property_readonly(
-            "field_data", [](const SharedMesh& self) { return all_shown(self.soup->field_data, self.soup); })
+            "field_data", [](const SharedMesh& self) { return all_shown(self.soup->field_data, self.soup); },
+            "{name: array} of the mesh as a whole.")
         .def_property_readonly(
             "remarks", [](const SharedMesh& self) { return self.soup->remarks; },
             "What the reader changed or ignored.")

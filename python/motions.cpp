@@ -237,8 +237,9 @@ Projection make_plane(const std::vector<double>& point, const std::vector<double
 
 void bind_surfaces(py::module_& module) {
     py::class_<Projection>(module, "Projection", "A surface that the vertices of a patch are projected onto.")
-        .def_property_readonly("dimension",
-                               [](const Projection& self) { return dimension_of(self.surface); });
+        .def_property_readonly(
+            "dimension", [](const Projection& self) { return dimension_of(self.surface); },
+            "D, that of space.");
     module.def("sphere", make_sphere, py::arg("centre"), py::arg("radius"), "A sphere, in 2D a circle.");
     module.def("ellipsoid", make_ellipsoid, py::arg("centre"), py::arg("semi_axes"),
                "An ellipsoid or ellipse with its axes along the coordinate axes.");
@@ -279,15 +280,16 @@ MovingPatch<D> moving_patch(const py::object& motion, const py::object& surface,
 
 void bind_motions(py::module_& module) {
     py::class_<FieldMotion>(module, "Motion", "A motion of the library, for March.move().")
-        .def_property_readonly("dimension",
-                               [](const FieldMotion& self) { return dimension_of(self.motion); });
+        .def_property_readonly(
+            "dimension", [](const FieldMotion& self) { return dimension_of(self.motion); },
+            "D, that of space.");
     py::class_<TrackMotion>(module, "TrackMotion", "A motion of each track: see track_motion().")
-        .def_readonly("positions", &TrackMotion::positions);
+        .def_readonly("positions", &TrackMotion::positions, "The function that was given.");
     module.def("rotation", make_rotation, py::arg("centre"), py::arg("rate"),
                py::arg("axis") = std::vector<double>{0, 0, 1},
                "Turns about the axis through `centre`, right-handed, by `rate` radians per unit of time; "
                "in 2D counter-clockwise.");
-    module.def("translation", make_translation, py::arg("velocity"));
+    module.def("translation", make_translation, py::arg("velocity"), "Moves along at a constant velocity.");
     module.def("expansion", make_expansion, py::arg("centre"), py::arg("rate"), py::arg("start") = 0.0,
                "Scaling: x0 at `start` is at centre + (1 + rate (t - start)) (x0 - centre) at t.");
     module.def("formula", make_formula, py::arg("formulas"),

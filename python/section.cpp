@@ -90,39 +90,50 @@ auto of_section(Read read) {
 void bind_section(py::module_& module) {
     py::class_<SharedSection>(module, "Section",
                               "The domain's closed boundary at an instant. Arrays are read-only views.")
-        .def_property_readonly("dimension",
-                               [](const SharedSection& self) { return dimension_of(self.section); })
-        .def_property_readonly("time", of_section([](const auto& s, const Owner&) { return s.time; }))
         .def_property_readonly(
-            "points", of_section([](const auto& s, const Owner& o) { return rows_of(s.surface.points, o); }))
+            "dimension", [](const SharedSection& self) { return dimension_of(self.section); },
+            "D, that of space.")
+        .def_property_readonly("time", of_section([](const auto& s, const Owner&) { return s.time; }),
+                               "The instant.")
+        .def_property_readonly(
+            "points", of_section([](const auto& s, const Owner& o) { return rows_of(s.surface.points, o); }),
+            "(n, D). A view.")
         .def_property_readonly(
             "facets", of_section([](const auto& s, const Owner& o) { return rows_of(s.surface.facets, o); }),
             "(m, D), outward from the domain.")
         .def_property_readonly("patch", of_section([](const auto& s, const Owner& o) {
                                    return list_of(std::span{s.surface.patch}, o);
-                               }))
+                               }),
+                               "The patch of each facet. A view.")
         .def_property_readonly("neighbors", of_section([](const auto& s, const Owner& o) {
                                    return neighbors_of(s.neighbors, o);
-                               }))
+                               }),
+                               "The cell opposite to each vertex, int32, -1 for none. A view.")
         .def_property_readonly("hull_cell", of_section([](const auto& s, const Owner& o) {
                                    return list_of(std::span{s.hull_cell}, o);
-                               }))
+                               }),
+                               "The cell of the hull that each facet is cut from. A view.")
         .def_property_readonly("vertex_ids", of_section([](const auto& s, const Owner& o) {
                                    return list_of(std::span{s.vertex_ids}, o);
-                               }))
+                               }),
+                               "The hull's vertex that the instant passes through, -1 for none.")
         .def_property_readonly("track_ids", of_section([](const auto& s, const Owner& o) {
                                    return list_of(std::span{s.track_ids}, o);
-                               }))
+                               }),
+                               "The track that each point is on, -1 for none.")
         .def_property_readonly(
-            "patches", of_section([](const auto& s, const Owner&) { return as_dict(s.surface.patches); }))
+            "patches", of_section([](const auto& s, const Owner&) { return as_dict(s.surface.patches); }),
+            "{number: name}")
         .def_property_readonly(
             "measure", [](const SharedSection& self) { return self.report.measure; },
             "Length or area of the boundary.")
         .def_property_readonly(
             "enclosed", [](const SharedSection& self) { return self.report.enclosed; },
             "Area or volume of the domain.")
-        .def_property_readonly("components", [](const SharedSection& self) { return self.report.components; })
-        .def_property_readonly("measure_by_patch", measures_by_patch)
+        .def_property_readonly(
+            "components", [](const SharedSection& self) { return self.report.components; },
+            "Number of closed curves or surfaces.")
+        .def_property_readonly("measure_by_patch", measures_by_patch, "{name: length or area}")
         .def("write", &write, py::arg("path"), "Writes VTU.");
 }
 
@@ -188,25 +199,33 @@ void bind_filling_section(py::module_& module) {
     py::class_<SharedFillingSection>(module, "FillingSection",
                                      "The domain's mesh at an instant, cut out of a filling. Arrays are "
                                      "read-only views.")
-        .def_property_readonly("dimension",
-                               [](const SharedFillingSection& self) { return dimension_of(self.section); })
-        .def_property_readonly("time", of_filling_section([](const auto& s, const Owner&) { return s.time; }))
         .def_property_readonly(
-            "points", of_filling_section([](const auto& s, const Owner& o) { return rows_of(s.points, o); }))
+            "dimension", [](const SharedFillingSection& self) { return dimension_of(self.section); },
+            "D, that of space.")
+        .def_property_readonly("time", of_filling_section([](const auto& s, const Owner&) { return s.time; }),
+                               "The instant.")
         .def_property_readonly(
-            "cells", of_filling_section([](const auto& s, const Owner& o) { return rows_of(s.cells, o); }))
+            "points", of_filling_section([](const auto& s, const Owner& o) { return rows_of(s.points, o); }),
+            "(n, D). A view.")
+        .def_property_readonly(
+            "cells", of_filling_section([](const auto& s, const Owner& o) { return rows_of(s.cells, o); }),
+            "(m, D + 1) uint32, positively oriented. A view.")
         .def_property_readonly("neighbors", of_filling_section([](const auto& s, const Owner& o) {
                                    return neighbors_of(s.neighbors, o);
-                               }))
+                               }),
+                               "The cell opposite to each vertex, int32, -1 for none. A view.")
         .def_property_readonly("filling_cell", of_filling_section([](const auto& s, const Owner& o) {
                                    return list_of(std::span{s.filling_cell}, o);
-                               }))
+                               }),
+                               "The simplex of the filling that each cell is cut from. A view.")
         .def_property_readonly("boundary_facets", of_filling_section([](const auto& s, const Owner& o) {
                                    return rows_of(s.boundary_facets, o);
-                               }))
+                               }),
+                               "(k, D) uint32. A view.")
         .def_property_readonly("boundary_attribute", of_filling_section([](const auto& s, const Owner& o) {
                                    return list_of(std::span{s.boundary_attribute}, o);
-                               }))
+                               }),
+                               "The attribute of the filling's facet that each is cut from. A view.")
         .def_property_readonly(
             "measure", [](const SharedFillingSection& self) { return self.report.measure; },
             "Area or volume of the domain.")

@@ -3,7 +3,7 @@
 #   sanitizers   all tests but those labelled "large", under AddressSanitizer and UndefinedBehaviorSanitizer
 #   threads      the tests labelled "parallel", under ThreadSanitizer
 #   lint         clang-tidy over all sources, by .clang-tidy
-#   docs         Doxygen over the public headers, warnings as errors
+#   docs         Doxygen over the public headers, and the documentation site; warnings are errors, and links lead somewhere
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install-deps.sh --test
@@ -16,8 +16,8 @@ check_sanitizers() { run_tests dev -LE large; }
 check_threads() { run_tests tsan -L parallel; }
 check_lint() { scripts/lint.sh; }
 check_docs() {
-    cmake --preset release >/dev/null
-    cmake --build --preset release --target docs
+    cmake --preset release -DSLABHULL_SITE=ON -DSLABHULL_UNITY=ON >/dev/null
+    cmake --build --preset release --target docs site
 }
 
 checks=("$@")
