@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/core/child_process.h"
 
+#include "core/child_pipes.h"
 #include "core/sanitizer_fork.h"
 
 #include "slabhull/core/error.h"
@@ -28,78 +29,14 @@
 
 namespace slabhull {
 
-namespace {
+namespace detail {
 
-constexpr int job_threw = 3;
-
-[[noreturn]] void refuse(const char* what) {
-    throw std::system_error{errno, std::generic_category(), what};
-}
-
-ChildEnd wait_for(pid_t child) {
-    int status = 0;
-    pid_t ended = 0;
-    do {
-        ended = waitpid(child, &status, 0);
-    } while (ended < 0 && errno == EINTR);
-    if (ended < 0) { // a host that ignores SIGCHLD leaves nothing to wait for
-        return {};
-    }
-    return {false, WIFSIGNALED(status) ? WTERMSIG(status) : 0, WIFEXITED(status) ? WEXITSTATUS(status) : 0};
-}
-
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_{number} {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() { close_now(); }
-
-    int number() const { return number_; }
-    void close_now() {
-        if (number_ >= 0) {
-            close(std::exchange(number_, -1));
-        }
-    }
-
-private:
-    int number_;
-};
-
-/// Reads or writes until all bytes went through; false when the other side is gone.
-template<class Call, class Byte>
-bool transfer(Call call, int descriptor, Byte* place, std::size_t size) {
-    while (size > 0) {
-        const ssize_t done = call(descriptor, place, std::min<std::size_t>(size, std::size_t{1} << 30));
-        if (done < 0 && errno == EINTR) {
-            continue;
-        }
-        if (done <= 0) {
-            return false;
-        }
-        place += done;
-        size -= static_cast<std::size_t>(done);
-    }
-    return true;
-}
-
-/// Returns when there is something to read, or the other side is gone. Throws Interrupted meanwhile.
-void wait_to_read(int descriptor) {
-    constexpr int milliseconds = 50;
-    pollfd watched{descriptor, POLLIN, 0};
-    do {
-        go_on();
-    } while (poll(&watched, 1, milliseconds) <= 0);
-}
-
-/// A terminal sends Ctrl-C to parent and child alike. Throws Interrupted where the parent is to stop, too.
 void hear_of_signal() {
     std::this_thread::sleep_for(
         std::chrono::milliseconds{100}); // for the parent's handler, and to be asked again
     go_on();
 }
 
-/// As exec() does it: the host's handlers must not run in the copy, and what nohup ignores stays ignored.
 void reset_signals() {
     for (int number = 1; number < NSIG; ++number) {
         struct sigaction action {};
@@ -119,6 +56,50 @@ void die_with(pid_t parent) {
     }
 }
 
+void run_job(int out, const std::function<void(const Send&)>& job) {
+    try {
+        job([out](const void* bytes, std::size_t size) {
+            if (!transfer(write, out, static_cast<const char*>(bytes), size)) {
+                _exit(job_threw);
+            }
+        });
+    } catch (...) {
+        _exit(job_threw);
+    }
+    _exit(EXIT_SUCCESS); // no destructors, no flushing: those are the parent's
+}
+
+} // namespace detail
+
+namespace {
+
+using namespace detail;
+
+[[noreturn]] void refuse(const char* what) {
+    throw std::system_error{errno, std::generic_category(), what};
+}
+
+ChildEnd wait_for(pid_t child) {
+    int status = 0;
+    pid_t ended = 0;
+    do {
+        ended = waitpid(child, &status, 0);
+    } while (ended < 0 && errno == EINTR);
+    if (ended < 0) { // a host that ignores SIGCHLD leaves nothing to wait for
+        return {};
+    }
+    return {false, WIFSIGNALED(status) ? WTERMSIG(status) : 0, WIFEXITED(status) ? WEXITSTATUS(status) : 0};
+}
+
+/// Returns when there is something to read, or the other side is gone. Throws Interrupted meanwhile.
+void wait_to_read(int descriptor) {
+    constexpr int milliseconds = 50;
+    pollfd watched{descriptor, POLLIN, 0};
+    do {
+        go_on();
+    } while (poll(&watched, 1, milliseconds) <= 0);
+}
+
 [[noreturn]] void live_as_child(pid_t parent, Descriptor& in, Descriptor& out,
                                 const std::function<void(const Send&)>& job) {
     in.close_now(); // else the pipe stays open after the parent's end
@@ -127,18 +108,9 @@ void die_with(pid_t parent) {
     out.close_now();
     reset_signals();
     die_with(parent);
-    const detail::WatchScope unwatched{
-        {nullptr, detail::current_watch().count}}; // the parent asks whether to go on
-    try {
-        job([&far](const void* bytes, std::size_t size) {
-            if (!transfer(write, far.number(), static_cast<const char*>(bytes), size)) {
-                _exit(job_threw);
-            }
-        });
-    } catch (...) {
-        _exit(job_threw);
-    }
-    _exit(EXIT_SUCCESS); // no destructors, no flushing: those are the parent's
+    // The parent asks whether to go on; what is done is counted for it.
+    const WatchScope unwatched{{nullptr, current_watch().count}};
+    run_job(far.number(), job);
 }
 
 /// Ends the process: it has said all. Nothing is allocated, as memory may be what was short.

@@ -14,8 +14,10 @@ namespace slabhull {
 
 namespace {
 
+/// Asked once: the answer is read from files each time.
 int machine_cores() {
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return cores;
 }
 
 std::atomic<int> configured_threads{0};

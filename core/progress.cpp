@@ -30,6 +30,7 @@ public:
             counts_ = new (page) Counts{{0}, {expected}};
         }
     }
+    explicit StageCount(std::function<void(std::uint64_t)> tell) : tell_{std::move(tell)} {}
     StageCount(const StageCount&) = delete;
     StageCount& operator=(const StageCount&) = delete;
     ~StageCount() {
@@ -39,6 +40,10 @@ public:
     }
 
     void add(std::uint64_t done) {
+        constexpr std::uint64_t worth_telling = 1 << 12;
+        if (tell_ && (untold_ += done) >= worth_telling) {
+            tell_(std::exchange(untold_, 0));
+        }
         if (counts_ != nullptr) {
             counts_->done.fetch_add(done, std::memory_order_relaxed);
         }
@@ -60,7 +65,9 @@ private:
     };
     static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "processes share it");
 
-    Counts* counts_ = nullptr; ///< null where there was no memory: then nothing is counted
+    Counts* counts_ = nullptr;                ///< null where there was no memory: then nothing is counted
+    std::function<void(std::uint64_t)> tell_; ///< of a process with one thread
+    std::uint64_t untold_ = 0;
 };
 
 class ProgressWatch {
@@ -129,6 +136,10 @@ thread_local Watched watched;
 
 Watched current_watch() {
     return watched;
+}
+
+std::shared_ptr<StageCount> count_told_to(std::function<void(std::uint64_t)> tell) {
+    return std::make_shared<StageCount>(std::move(tell));
 }
 
 WatchScope::WatchScope(Watched next) : before_{std::exchange(watched, std::move(next))} {}

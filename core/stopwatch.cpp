@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/core/stopwatch.h"
 
+#include "core/child_server.h"
+
+#include <algorithm>
+
 #include <sys/resource.h>
 
 namespace slabhull {
@@ -32,7 +36,7 @@ double cpu_seconds() {
 }
 
 double cpu_seconds_of_children() {
-    return cpu_seconds_of(RUSAGE_CHILDREN);
+    return cpu_seconds_of(RUSAGE_CHILDREN) + usage_of_fresh_children().cpu_seconds;
 }
 
 std::size_t peak_memory() {
@@ -40,7 +44,7 @@ std::size_t peak_memory() {
 }
 
 std::size_t peak_memory_of_children() {
-    return peak_of(RUSAGE_CHILDREN);
+    return std::max(peak_of(RUSAGE_CHILDREN), usage_of_fresh_children().peak_bytes);
 }
 
 } // namespace slabhull

@@ -4,6 +4,7 @@
 
 #include "slabhull/cases/plan.h"
 #include "slabhull/cases/run.h"
+#include "slabhull/core/child_process.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/stopwatch.h"
 
@@ -52,6 +53,7 @@ void print_plan(const Case& the_case, const CasePlan& plan) {
 }
 
 int build(const BuildOptions& options) {
+    start_child_server(); // for meshers, while this process is small
     set_thread_count(options.threads);
     Case the_case = read_case(options.case_file);
     if (!options.directory.empty()) {

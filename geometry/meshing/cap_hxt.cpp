@@ -278,9 +278,12 @@ bool has_hxt() {
 CapMesh<3> fill_with_hxt(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                          const CapOptions&) {
     const Solids solids = find_solids(boundary, surface);
+    const auto job = [&](const Send& send) {
+        fall_silent();
+        mesh_and_send(boundary, surface, solids, size, send);
+    };
     return fill_in_child(
-        surface, [&](const Send& send) { mesh_and_send(boundary, surface, solids, size, send); },
-        failure_in_words);
+        surface, [&](const auto& receive) { return run_in_child(job, receive); }, failure_in_words);
 }
 
 } // namespace slabhull

@@ -14,7 +14,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <new>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -112,14 +114,48 @@ std::string switches(const CapOptions& options) {
     return fmt::format("pYnQq{:.4f}/{:.4f}", options.radius_edge, options.min_dihedral);
 }
 
-void mesh_and_send(const Surface<3>& surface, const std::vector<Point<3>>& holes, const SizeField<3>& size,
-                   const CapOptions& options, const Send& send) {
+/// What the child is told, before the lists of points, facets and holes and those of the size field.
+struct TetgenOrder {
+    std::uint64_t points = 0;
+    std::uint64_t facets = 0;
+    std::uint64_t holes = 0;
+    SizeField<3>::Packed size;
+    std::array<char, 64> switches{};
+};
+
+/// Takes lists from the front of bytes.
+class ListTaker {
+public:
+    explicit ListTaker(std::span<const std::byte> bytes) : bytes_{bytes} {}
+    template<class List>
+    List take(std::size_t count) {
+        List list(count);
+        std::memcpy(list.data(), bytes_.data(), count * sizeof list[0]);
+        bytes_ = bytes_.subspan(count * sizeof list[0]);
+        return list;
+    }
+    std::span<const std::byte> rest() const { return bytes_; }
+
+private:
+    std::span<const std::byte> bytes_;
+};
+
+void mesh_and_send(std::span<const std::byte> request, const Send& send) {
+    fall_silent(); // TetGen prints even when told to be quiet
     std::int32_t status = 0;
     try {
+        TetgenOrder order;
+        std::memcpy(&order, request.data(), sizeof order);
+        ListTaker lists{request.subspan(sizeof order)};
+        Surface<3> surface;
+        surface.points = lists.take<Array<Point<3>>>(order.points);
+        surface.facets = lists.take<Array<Facet<3>>>(order.facets);
+        const auto holes = lists.take<std::vector<Point<3>>>(order.holes);
+        const SizeField<3> size{order.size, lists.rest()};
         wanted_size = &size;
         auto* input = new TetgenInput{surface, holes};
         auto* mesh = new tetgenio; // neither is deleted: the child ends
-        tetrahedralize(switches(options).data(), &input->plc, mesh);
+        tetrahedralize(order.switches.data(), &input->plc, mesh);
         return send_mesh(send, *mesh);
     } catch (const int thrown) {
         status = thrown;
@@ -158,8 +194,18 @@ bool has_tetgen() {
 CapMesh<3> fill_with_tetgen(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                             const CapOptions& options) {
     const std::vector<Point<3>> holes = hole_seeds(boundary, surface);
+    TetgenOrder order{surface.points.size(), surface.facets.size(), holes.size(), size.packed(), {}};
+    const std::string chosen = switches(options);
+    chosen.copy(order.switches.data(), order.switches.size() - 1);
+    const auto bytes = [](const auto& list) { return std::as_bytes(std::span{list}); };
+    const Request request{std::as_bytes(std::span{&order, 1}),
+                          bytes(surface.points),
+                          bytes(surface.facets),
+                          bytes(holes),
+                          size.source_bytes(),
+                          size.box_bytes()};
     return fill_in_child(
-        surface, [&](const Send& send) { mesh_and_send(surface, holes, size, options, send); },
+        surface, [&](const auto& receive) { return run_in_fresh_child(mesh_and_send, request, receive); },
         thrown_in_words);
 }
 

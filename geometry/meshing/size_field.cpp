@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace slabhull {
 
@@ -137,6 +138,15 @@ SizeField<D>::SizeField(std::span<const Point<D>> points, std::span<const double
         edge_ = std::max(edge_, high[k] - low[k]);
     }
     Builder{*this}.build();
+}
+
+template<int D>
+SizeField<D>::SizeField(const Packed& packed, std::span<const std::byte> lists)
+    : grading_{packed.grading}, corner_{packed.corner}, edge_{packed.edge} {
+    sources_.resize(packed.source_bytes / sizeof(Source));
+    boxes_.resize(packed.box_bytes / sizeof(Box));
+    std::memcpy(sources_.data(), lists.data(), packed.source_bytes);
+    std::memcpy(boxes_.data(), lists.data() + packed.source_bytes, packed.box_bytes);
 }
 
 template<int D>

@@ -24,14 +24,9 @@ bool receive_mesh(const Receive& receive, MesherHeading& heading, CapMesh<3>& me
     return fill(mesh.points) && fill(mesh.cells) && fill(mesh.neighbors);
 }
 
-ChildEnd run_silently(const std::function<void(const Send&)>& job,
-                      const std::function<bool(const Receive&)>& receive) {
-    const auto silent_job = [&](const Send& send) {
-        fall_silent(); // TetGen prints even when told to be quiet
-        job(send);
-    };
+ChildEnd started(const RunMesher& run, const std::function<bool(const Receive&)>& receive) {
     try {
-        return run_in_child(silent_job, receive);
+        return run(receive);
     } catch (const std::system_error& error) {
         throw GeometryError{fmt::format("cannot start a child process for the mesher: {}", error.what())};
     }
@@ -55,12 +50,12 @@ bool has_mesher(SolidMesher mesher) {
     return mesher == SolidMesher::hxt ? has_hxt() : has_tetgen();
 }
 
-CapMesh<3> fill_in_child(const Surface<3>& surface, const std::function<void(const Send&)>& job,
+CapMesh<3> fill_in_child(const Surface<3>& surface, const RunMesher& run,
                          const std::function<std::string(const MesherHeading&)>& words) {
     CapMesh<3> mesh;
     MesherHeading heading;
     const ChildEnd end =
-        run_silently(job, [&](const Receive& receive) { return receive_mesh(receive, heading, mesh); });
+        started(run, [&](const Receive& receive) { return receive_mesh(receive, heading, mesh); });
     if (!end.received || heading.status != 0) {
         throw GeometryError{fmt::format("the 3D mesher, given a surface of {} triangles and {} points, {}",
                                         surface.facets.size(), surface.points.size(),

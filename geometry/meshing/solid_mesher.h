@@ -36,9 +36,10 @@ struct MesherHeading {
 /// spacing.
 inline constexpr double longest_edge = 1.7;
 
-/// Runs `job` in a child and receives the mesh that it sends.
+/// Runs a mesher in a child, and receives the mesh that it sends.
+using RunMesher = std::function<ChildEnd(const std::function<bool(const Receive&)>& receive)>;
 /// Throws GeometryError saying how the child ended, or with `words` if the heading reports a failure.
-CapMesh<3> fill_in_child(const Surface<3>& surface, const std::function<void(const Send&)>& job,
+CapMesh<3> fill_in_child(const Surface<3>& surface, const RunMesher& run,
                          const std::function<std::string(const MesherHeading&)>& words);
 
 } // namespace slabhull

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace slabhull {
 
@@ -31,6 +33,22 @@ using Receive = std::function<bool(void* bytes, std::size_t size)>;
 /// has ended.
 ChildEnd run_in_child(const std::function<void(const Send&)>& job,
                       const std::function<bool(const Receive&)>& receive);
+
+/// What a fresh child is told, in parts.
+using Request = std::vector<std::span<const std::byte>>;
+/// What it does: it knows the request, joined, and what this process had when it was copied.
+using FreshJob = void (*)(std::span<const std::byte> request, const Send& send);
+
+/// As run_in_child(), but the child is no copy of this process as it is now: it descends from a copy that was
+/// made once, by start_child_server() or the first call. So it takes no more memory than its job, and this
+/// process's pages stay its own, where after a fork each that is written would be copied. The child is ended
+/// when this process ends. Where that copy cannot be had, it is as run_in_child().
+ChildEnd run_in_fresh_child(FreshJob job, const Request& request,
+                            const std::function<bool(const Receive&)>& receive);
+
+/// Makes the copy of this process from which fresh children descend; best while it is small and has one
+/// thread. The copy waits, holds no files open, and ends with this process.
+void start_child_server();
 
 /// What came back from a child.
 struct ChildAnswer {

@@ -44,6 +44,8 @@ struct Watched {
 };
 /// How this thread's work is watched.
 Watched current_watch();
+/// A count that is told, from time to time, by calls of `tell` with what was added.
+std::shared_ptr<StageCount> count_told_to(std::function<void(std::uint64_t added)> tell);
 
 /// While it lives, this thread's work is watched so.
 class WatchScope {

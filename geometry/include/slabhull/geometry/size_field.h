@@ -5,6 +5,7 @@
 #include "slabhull/core/point.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -35,6 +36,20 @@ public:
     SizeField(std::span<const Point<D>> points, std::span<const double> spacing, const Grading& grading);
 
     double operator()(const Point<D>& x) const;
+
+    /// The field as bytes, for another process of this program: a heading, and two lists.
+    struct Packed {
+        Grading grading;
+        Point<D> corner{};
+        double edge = 0;
+        std::uint64_t source_bytes = 0;
+        std::uint64_t box_bytes = 0;
+    };
+    Packed packed() const { return {grading_, corner_, edge_, source_bytes().size(), box_bytes().size()}; }
+    std::span<const std::byte> source_bytes() const { return std::as_bytes(std::span{sources_}); }
+    std::span<const std::byte> box_bytes() const { return std::as_bytes(std::span{boxes_}); }
+    /// The field that was packed so; `lists` are its sources and boxes, one after the other.
+    SizeField(const Packed& packed, std::span<const std::byte> lists);
 
     std::size_t box_count() const { return boxes_.size(); }
 
