@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <fmt/format.h>
 #include <future>
 #include <memory>
@@ -190,7 +191,7 @@ public:
             while (march_->state().time < case_.end) {
                 run_slab();
             }
-            settle();
+            settle_all();
         } catch (const Error&) {
             if (result_.files.size() > before) {
                 const ProgressScope to_the_end{{}};
@@ -282,10 +283,13 @@ private:
         Slab<D> slab;
         std::optional<Filled> filled;
         StageClock clock;
+        std::optional<SoundHull> sound;
         std::optional<MarchState<D>> after; ///< the march's state after it, if that has gone on already
+        SlabFiles files;                    ///< last, so that they are waited for before the slab goes
     };
 
-    /// Builds a slab, and checks and writes it while the next one is built, where threads and memory allow.
+    /// Builds a slab. It is checked and written while the next ones are built, where threads and memory
+    /// allow.
     void run_slab() {
         const double time = march_->state().time;
         meter_.begin_slab(march_->state().slab, time, case_.slab_end(time));
@@ -293,64 +297,85 @@ private:
         try {
             std::tie(built->slab, built->filled) = build_and_fill(built->clock);
         } catch (const Error&) {
-            settle(); // the slab before comes first, and so do its faults
+            settle_all(); // the slabs before come first, and so do their faults
             throw;
         }
         meter_.hull_built(built->slab.hull.cells.size());
         warn_of_layers(built->slab);
         warn_of_halvings(built->slab);
-        settle();
-        if (!can_go_on_meanwhile(*built)) {
-            finish(*built);
-            meter_.end_slab(built->clock);
-            return;
+        built->files.stage.emplace(
+            "writing", static_cast<std::uint64_t>(file_bytes_per_cell_ *
+                                                  static_cast<double>(built->slab.hull.cells.size())));
+        if (can_go_on_meanwhile(*built)) {
+            march_->accept(built->slab);
+            built->after = state_without_cells(march_->state());
+            const BackgroundStage stage{"checking and writing"};
+            finishing_.push_back({stage, built, std::async(std::launch::async, stage.counted([this, built] {
+                                      examine(*built);
+                                  }))});
+        } else {
+            settle_all();
+            examine(*built);
+            record(*built);
         }
-        march_->accept(built->slab);
-        built->after = state_without_cells(march_->state());
-        finishing_.stage.emplace("checking and writing");
-        finishing_.built = built;
-        finishing_.done =
-            std::async(std::launch::async, finishing_.stage->counted([this, built] { finish(*built); }));
     }
 
-    /// Whether there is memory for checking this hull and building the next one at once.
-    bool can_go_on_meanwhile(const Built& built) const {
+    /// Whether there are threads and memory for checking this hull while the next one is built. Waits for the
+    /// first of several that are being checked.
+    bool can_go_on_meanwhile(const Built& built) {
+        constexpr std::size_t most_at_once = 2;
+        while (finishing_.size() >= most_at_once) {
+            settle_first();
+        }
         const double bytes = 2 * bytes_per_simplex(case_) * static_cast<double>(built.slab.hull.cells.size());
         return thread_count() > 1 && bytes < static_cast<double>(available_memory());
     }
 
-    /// Waits until the last slab is on the disk. Throws what went wrong with it.
-    void settle() {
-        if (finishing_.done.valid()) {
-            finishing_.stage->show();
-            const std::shared_ptr<Built> built = std::exchange(finishing_.built, nullptr);
-            wait_for(finishing_.done);
-            meter_.end_slab(built->clock);
+    /// Waits until the first slab that is not yet on the disk is there. Throws what went wrong with it.
+    void settle_first() {
+        Finishing first = std::move(finishing_.front());
+        finishing_.pop_front();
+        first.stage.show();
+        wait_for(first.done);
+        record(*first.built);
+    }
+
+    void settle_all() {
+        while (!finishing_.empty()) {
+            settle_first();
         }
     }
 
-    /// Checks a slab, puts its files in place, and takes it into journal and checkpoint.
-    void finish(Built& built) {
+    /// Checks a slab and writes its files, which are still to be put in place.
+    void examine(Built& built) {
         StageClock clock;
+        const Slab<D>& slab = built.slab;
+        begin_writing(slab, built.filled,
+                      built.files); // the disk is slow: it works while the hull is checked
+        built.sound = require_sound_hull<D>(slab.hull, fmt::format("the hull of slab {}", slab.hull.slab),
+                                            case_.check_embedding, clock);
+        built.files.stage->show();
+        wait_for(built.files.written);
+        clock.book("writing");
+        built.clock.add(clock);
+    }
+
+    /// Puts the files of a slab in place, and takes it into journal and checkpoint.
+    void record(Built& built) {
         Slab<D>& slab = built.slab;
-        SlabFiles files;
-        begin_writing(slab, built.filled, files); // the disk is slow: it works while the hull is checked
-        const SoundHull sound = require_sound_hull<D>(
-            slab.hull, fmt::format("the hull of slab {}", slab.hull.slab), case_.check_embedding, clock);
-        files.stage->show();
-        wait_for(files.written);
-        learn_file_size(files, slab.hull.cells.size());
+        const std::size_t cells = slab.hull.cells.size();
+        const std::vector<std::filesystem::path> paths = built.files.open.paths();
         if (!journal_) {
             replace_earlier_run();
         }
-        files.open.commit();
-        result_.files.insert(result_.files.end(), files.open.paths().begin(), files.open.paths().end());
-        result_.cells += slab.hull.cells.size();
+        built.files.open.commit();
+        result_.files.insert(result_.files.end(), paths.begin(), paths.end());
+        result_.cells += cells;
         result_.points += slab.hull.points.size();
         ++result_.slabs;
-        clock.book("writing");
-        built.clock.add(clock);
-        Json report = report_of(slab, sound, built.clock);
+        // The next slab's files will be about as large.
+        file_bytes_per_cell_ = static_cast<double>(built.files.stage->done()) / static_cast<double>(cells);
+        Json report = report_of(slab, *built.sound, built.clock);
         if (built.filled) {
             report["fill"] = built.filled->report;
         }
@@ -360,7 +385,8 @@ private:
         }
         journal_->append(report.dump());
         write_checkpoint(path_of(checkpoint_name), built.after ? *built.after : march_->state(),
-                         {cap, files.cap_checksum, journal_->size(), case_.checksum});
+                         {cap, built.files.cap_checksum, journal_->size(), case_.checksum});
+        meter_.end_slab(built.clock);
     }
 
     /// Throws what went wrong with it.
@@ -540,9 +566,6 @@ private:
     }
 
     void begin_writing(const Slab<D>& slab, const std::optional<Filled>& filled, SlabFiles& files) {
-        files.stage.emplace(
-            "writing",
-            static_cast<std::uint64_t>(file_bytes_per_cell_ * static_cast<double>(slab.hull.cells.size())));
         files.written = std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred,
                                    files.stage->counted([this, &slab, &filled, &files] {
                                        write(slab, files);
@@ -550,11 +573,6 @@ private:
                                            write(filled->mesh, files);
                                        }
                                    }));
-    }
-
-    /// The next slab's files will be about as large.
-    void learn_file_size(const SlabFiles& files, std::size_t cells) {
-        file_bytes_per_cell_ = static_cast<double>(files.stage->done()) / static_cast<double>(cells);
     }
 
     void write(const Filling<D>& filling, SlabFiles& files) const {
@@ -694,13 +712,13 @@ private:
     std::optional<CapsAhead<D>> ahead_;
     int failures_ahead_ = 0; ///< slabs that were not as prepared
 
-    /// The last slab, which is being checked and written.
+    /// A slab that is being checked and written.
     struct Finishing {
-        std::optional<BackgroundStage> stage;
+        BackgroundStage stage;
         std::shared_ptr<Built> built;
-        std::future<void> done; ///< last, so that it is waited for before all else goes
+        std::future<void> done;
     };
-    Finishing finishing_;
+    std::deque<Finishing> finishing_; ///< last, so that they are waited for before all else goes
 };
 
 } // namespace
