@@ -70,7 +70,7 @@ void count(std::span<const std::byte>, const Send& send) {
 }
 
 void take_memory(std::span<const std::byte>, const Send& send) {
-    std::vector<char> much(std::size_t{200} << 20, 'x');
+    std::vector<char> much(std::size_t{60} << 20, 'x');
     send(&much[much.size() / 2], 1);
 }
 
@@ -162,10 +162,10 @@ TEST_CASE("what a fresh child has done is counted here", "[child]") {
 
 TEST_CASE("memory and processor time of fresh children are told, and they start small", "[child]") {
     start_child_server();
-    const std::vector<char> mine(std::size_t{100} << 20, 'y'); // which they do not have
+    const std::vector<char> mine(std::size_t{30} << 20, 'y'); // which they do not have
     const double before = cpu_seconds_of_children();
     CHECK(run_in_fresh_child(take_memory, {}, receive_nothing).received);
-    CHECK(peak_memory_of_children() > std::size_t{200} << 20);
+    CHECK(peak_memory_of_children() > std::size_t{60} << 20);
     CHECK(cpu_seconds_of_children() > before);
     CHECK(mine.back() == 'y');
 }
