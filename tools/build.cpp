@@ -5,9 +5,12 @@
 #include "slabhull/cases/plan.h"
 #include "slabhull/cases/run.h"
 #include "slabhull/core/child_process.h"
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/stopwatch.h"
+#include "slabhull/ranks/mpi.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -52,23 +55,25 @@ void print_plan(const Case& the_case, const CasePlan& plan) {
                plan.cap_simplices, 1e-9 * plan.bytes, plan.seconds);
 }
 
-int build(const BuildOptions& options) {
-    start_child_server(); // for meshers, while this process is small
-    set_thread_count(options.threads);
+/// Builds, alone or as one of the ranks that mpirun started; the first of them speaks for all.
+int build(const BuildOptions& options, Communicator* ranks) {
+    const bool first = ranks == nullptr || ranks->first();
     Case the_case = read_case(options.case_file);
     if (!options.directory.empty()) {
         the_case.directory = options.directory;
     }
-    ProgressDisplay display{progress_form(options.progress, options.quiet)};
+    ProgressDisplay display{progress_form(options.progress, options.quiet || !first)};
     const Listener listener = listener_with(display);
     if (options.dry_run) {
-        print_plan(the_case, plan_case(the_case, listener));
+        if (first) {
+            print_plan(the_case, plan_case(the_case, listener));
+        }
         return 0;
     }
     const Stopwatch watch;
-    const RunResult result = run_case(the_case, listener, {options.resume});
+    const RunResult result = run_case(the_case, listener, {options.resume, ranks});
     display.clear();
-    if (!options.quiet) {
+    if (!options.quiet && first) {
         fmt::print("{}: {} simplices, {} points, {} slab{}, checked, in {:.1f} s\n",
                    the_case.title.empty() ? options.case_file : the_case.title, result.cells, result.points,
                    result.slabs, result.slabs == 1 ? "" : "s", watch.seconds());
@@ -77,6 +82,20 @@ int build(const BuildOptions& options) {
         }
     }
     return 0;
+}
+
+int build(const BuildOptions& options) {
+    start_child_server(); // for meshers, while this process is small and knows nothing of MPI
+    set_thread_count(options.threads);
+    const std::optional<StartedRank> started = started_by_mpirun();
+    if (!started) {
+        return build(options, nullptr);
+    }
+    if (options.threads == 0) {
+        set_thread_count(std::max(1, thread_count() / started->on_this_machine));
+    }
+    return run_in_mpi(
+        [&options](Communicator& ranks) { return together(ranks, [&] { return build(options, &ranks); }); });
 }
 
 /// Where a page of the documentation is: installed beside this program, or in the repository.

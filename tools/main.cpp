@@ -4,6 +4,7 @@
 #include "slabhull/cases/run.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/progress.h"
+#include "slabhull/ranks/mpi.h"
 
 #include <atomic>
 #include <csignal>
@@ -15,9 +16,25 @@ namespace {
 constexpr int wrong_usage = static_cast<int>(slabhull::Failure::usage);
 constexpr int failed = static_cast<int>(slabhull::Failure::geometry);
 
+/// Of the processes that mpirun starts, the first speaks for all.
+bool speaks() {
+    return slabhull::started_by_mpirun().value_or(slabhull::StartedRank{}).rank == 0;
+}
+
 int complain(const std::string& text, int exit_code) {
-    fmt::print(stderr, "slabhull: {}\n", text);
+    if (speaks()) {
+        fmt::print(stderr, "slabhull: {}\n", text);
+    }
     return exit_code;
+}
+
+/// Other subcommands would do the same work, and write the same files, as often as there are ranks.
+void require_one_process(const CLI::App& program) {
+    const auto started = slabhull::started_by_mpirun();
+    if (started && started->size > 1 && !program.got_subcommand("build")) {
+        throw slabhull::UsageError{
+            "of the subcommands, only build works in ranks: run this one without mpirun"};
+    }
 }
 
 std::atomic<int> stop_signal{0};
@@ -62,6 +79,7 @@ int main(int argc, char** argv) {
     slabhull::tools::add_slice(program, exit_code);
     slabhull::tools::add_study(program, exit_code);
     slabhull::tools::add_view(program, exit_code);
+    program.parse_complete_callback([&program] { require_one_process(program); });
     try {
         program.parse(argc, argv);
         return exit_code;
@@ -73,7 +91,7 @@ int main(int argc, char** argv) {
         constexpr int by_signal = 128;
         return complain(
             "interrupted; no file is half-written. build --resume goes on after the last whole slab",
-            by_signal + stop_signal);
+            by_signal + (stop_signal != 0 ? stop_signal.load() : SIGTERM)); // or another rank was told
     } catch (const slabhull::Error& error) {
         return complain(error.what(), static_cast<int>(error.failure()));
     } catch (const std::bad_alloc&) {

@@ -3,6 +3,7 @@
 
 #include "slabhull/core/error.h"
 #include "slabhull/core/missing_file.h"
+#include "slabhull/io/formats.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -92,6 +93,39 @@ void require_files(const Case& the_case) {
     for (const auto& [patch, projection] : the_case.projections) {
         require_file(the_case, fmt::format("project.{}.file", patch), projection.file);
     }
+}
+
+Case case_in_ranks(Case the_case, int ranks) {
+    const auto refuse = [&](const std::string& what) {
+        throw UsageError{
+            fmt::format("{}{}", the_case.file.empty() ? "" : the_case.file.string() + ": ", what)};
+    };
+    if (the_case.cap_reuse == CapReuse::adapt) {
+        refuse("cap.reuse: \"adapt\" does not work in ranks yet: \"move\" does, or run without mpirun");
+    }
+    if (the_case.fill) {
+        refuse("[fill]: slabs are not filled in ranks yet: leave it out, or run without mpirun");
+    }
+    for (const std::string& format : the_case.formats) {
+        if (io::format_named(format)->write_piece == nullptr) {
+            refuse(fmt::format("output.formats: \"{}\" is one file, and ranks write one each: \"pvtu\" and "
+                               "\"msh\" are in pieces",
+                               format));
+        }
+        io::WriteOptions& writing = the_case.writing[format];
+        if (writing.pieces != 0 && writing.pieces != static_cast<std::size_t>(ranks)) {
+            refuse(
+                fmt::format("output.pieces: there are {} ranks, and each writes a piece: leave out the {}, "
+                            "or start as many",
+                            ranks, writing.pieces));
+        }
+        writing.pieces = static_cast<std::size_t>(ranks);
+        io::require_supported(*io::format_named(format), writing, "output." + format + ".");
+    }
+    if (the_case.dimension == 3 && the_case.cap_blocks == 0) {
+        the_case.cap_blocks = ranks;
+    }
+    return the_case;
 }
 
 void warn_of_turns(const Case& the_case, const Listener& listener) {

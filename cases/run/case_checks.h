@@ -10,6 +10,10 @@ namespace slabhull {
 /// Throws InputError, naming the key, for a file of the case that is not there.
 void require_files(const Case& the_case);
 
+/// The case as so many ranks run it: output in as many pieces, caps in as many blocks unless the case gives
+/// their number. Throws UsageError, naming the setting, for what ranks cannot do.
+Case case_in_ranks(Case the_case, int ranks);
+
 /// Warns of rotations that turn so far that their rate was hardly meant to be in radians.
 void warn_of_turns(const Case& the_case, const Listener& listener);
 

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -122,46 +124,87 @@ void add_patch_fields(MeshColumns& mesh, const PatchList& patches) {
     mesh.field_data.push_back({"patch_name", 1, std::move(names)});
 }
 
+/// The rows of a hull, or of a part of one, that files have.
 template<int D>
-Column<double> times_of(const Hull<D>& hull) {
-    return computed<double>(hull.points.size(), [&hull](std::size_t v) { return hull.points[v][D]; });
+struct HullRows {
+    const HullOrder<D>& order;
+    HullRange range; ///< of the cells
+    std::span<const Point<D + 1>> points;
+    std::span<const Simplex<D>> cells;
+    const IntegerList& vertex_ids;
+    const IntegerList& track_ids;
+    /// Neighbours, with so much added to each.
+    std::function<Column<std::int64_t>(std::int64_t shift)> neighbors;
+};
+
+template<int D>
+HullRows<D> rows_of(const Hull<D>& hull) {
+    return {hull,
+            {0, hull.cells.size()},
+            hull.points,
+            hull.cells,
+            hull.vertex_ids,
+            hull.track_ids,
+            [&hull](std::int64_t shift) {
+                return index_rows(std::span<const Neighbors<D>>{hull.neighbors}, shift);
+            }};
 }
 
 template<int D>
-MeshColumns mesh_columns(const Hull<D>& hull) {
+HullRows<D> rows_of(const HullPart<D>& part, const HullOrder<D>& order) {
+    const auto neighbors = [&part](std::int64_t shift) {
+        return Column<std::int64_t>{
+            part.cells.size(), D + 1, [&part, shift](std::size_t begin, std::size_t end, std::int64_t* out) {
+                for (std::size_t c = begin; c < end; ++c) {
+                    for (const Index neighbor : part.neighbors[c]) {
+                        *out++ = static_cast<std::int64_t>(part.in_hull(neighbor)) + shift;
+                    }
+                }
+            }};
+    };
+    return {order, part.range, part.points, part.cells, part.vertex_ids, part.track_ids, neighbors};
+}
+
+template<int D>
+Column<double> times_of(std::span<const Point<D + 1>> points) {
+    return computed<double>(points.size(), [points](std::size_t v) { return points[v][D]; });
+}
+
+template<int D>
+MeshColumns mesh_columns(const HullRows<D>& hull) {
     MeshColumns mesh;
     mesh.dimension = D;
     mesh.points = first_three<D + 1>(hull.points);
-    mesh.cells = index_rows(std::span<const Simplex<D>>{hull.cells});
+    mesh.cells = index_rows(hull.cells);
     return mesh;
 }
 
 template<int D>
-MeshColumns vtu_columns(const Hull<D>& hull) {
+MeshColumns vtu_columns(const HullRows<D>& hull, Column<std::int64_t> cells_of_points) {
     MeshColumns mesh = mesh_columns(hull);
-    mesh.point_data = {{"t", Scalar::float64, times_of(hull)},
+    mesh.point_data = {{"t", Scalar::float64, times_of<D>(hull.points)},
                        {"vertex_id", Scalar::int64, integer_column(hull.vertex_ids)},
                        {"track_id", Scalar::int64, integer_column(hull.track_ids)},
-                       {"cell", Scalar::int64, cells_of_points(hull)}};
-    mesh.cell_data = {
-        {"region", Scalar::int32, region_column(hull)},
-        {"patch", Scalar::int32, patch_column(hull)},
-        {"layer", Scalar::int32, layer_column(hull)},
-        {"neighbors", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors})}};
-    mesh.field_data = {number_field("slab", {hull.slab}),
-                       {"time", 1, Array<double>{hull.time[0], hull.time[1]}},
+                       {"cell", Scalar::int64, std::move(cells_of_points)}};
+    mesh.cell_data = {{"region", Scalar::int32, region_column(hull.order, hull.range)},
+                      {"patch", Scalar::int32, patch_column(hull.order, hull.range)},
+                      {"layer", Scalar::int32, layer_column(hull.order, hull.range)},
+                      {"neighbors", Scalar::int64, hull.neighbors(0)}};
+    const HullOrder<D>& order = hull.order;
+    mesh.field_data = {number_field("slab", {order.slab}),
+                       {"time", 1, Array<double>{order.time[0], order.time[1]}},
                        number_field("dimension", {D})};
-    add_patch_fields(mesh, hull.patches);
-    if (!hull.adapt_settings.empty()) {
-        mesh.field_data.push_back(real_field("adapt_settings", hull.adapt_settings));
-        mesh.field_data.push_back(real_field("adapt_spacing", hull.adapt_spacing));
+    add_patch_fields(mesh, order.patches);
+    if (!order.adapt_settings.empty()) {
+        mesh.field_data.push_back(real_field("adapt_settings", order.adapt_settings));
+        mesh.field_data.push_back(real_field("adapt_spacing", order.adapt_spacing));
     }
     return mesh;
 }
 
 /// Runs of cells of one region or patch, in cell order.
 template<int D>
-std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
+std::vector<MeshColumns::Group> groups_of(const HullOrder<D>& hull, std::size_t cells) {
     PatchNumber largest = 0;
     std::unordered_map<PatchNumber, std::string> names; // patches, and then runs, may be very many
     for (const Patch& patch : hull.patches) {
@@ -181,23 +224,79 @@ std::vector<MeshColumns::Group> groups_of(const Hull<D>& hull) {
         }
         begin = end;
     }
-    groups.push_back({hull.terminating_begin(), hull.cells.size(), largest + 2, "terminating"});
+    groups.push_back({hull.terminating_begin(), cells, largest + 2, "terminating"});
     return groups;
 }
 
 template<int D>
-MeshColumns msh_columns(const Hull<D>& hull) {
+MeshColumns msh_columns(const HullRows<D>& hull) {
     MeshColumns mesh = mesh_columns(hull);
-    mesh.groups = groups_of(hull);
     if constexpr (D == 3) {
-        mesh.point_data.push_back({"t", Scalar::float64, times_of(hull)});
+        mesh.point_data.push_back({"t", Scalar::float64, times_of<D>(hull.points)});
     }
     mesh.point_data.push_back({"vertex_id", Scalar::int64, integer_column(hull.vertex_ids)});
     mesh.point_data.push_back({"track_id", Scalar::int64, integer_column(hull.track_ids)});
     // Element tags count from 1.
-    mesh.cell_data = {
-        {"neighbor", Scalar::int64, index_rows(std::span<const Neighbors<D>>{hull.neighbors}, 1)}};
+    mesh.cell_data = {{"neighbor", Scalar::int64, hull.neighbors(1)}};
     return mesh;
+}
+
+/// The lowest cell of the part that uses each of its points, as a number in the hull.
+template<int D>
+Array<std::int64_t> first_cells_here(const HullPart<D>& part) {
+    Array<std::int64_t> first(part.points.size(), -1);
+    for (std::size_t c = part.cells.size(); c-- > 0;) {
+        for (const Index v : part.cells[c]) {
+            first[v] = static_cast<std::int64_t>(part.range.first + c);
+        }
+    }
+    return first;
+}
+
+/// A point of the hull, and a cell that uses it.
+struct PointUse {
+    std::uint64_t point;
+    std::int64_t cell;
+};
+
+/// Of all the parts that use a point, the lowest cell: each point is asked for at the rank that is
+/// responsible for its number, which is told of all uses.
+template<int D>
+Array<std::int64_t> first_cells_in_hull(const HullPart<D>& part, Communicator& ranks) {
+    const auto parts = static_cast<std::size_t>(ranks.size());
+    Array<std::int64_t> first = first_cells_here(part);
+    std::vector<Array<PointUse>> uses(parts);
+    const auto home_of = [&](std::size_t point) { // consecutive points have one home
+        return std::min(parts - 1, point / (part.hull_points() / parts + 1));
+    };
+    std::size_t point = first.empty() ? 0 : part.points_used->member(0);
+    for (std::size_t k = 0; k < first.size(); ++k) {
+        uses[home_of(point)].push_back({point, first[k]});
+        point = k + 1 < first.size() ? part.points_used->next(point) : point;
+    }
+    std::vector<Array<PointUse>> asked = ranks.all_to_all(uses);
+    const std::size_t begin = static_cast<std::size_t>(ranks.rank()) * (part.hull_points() / parts + 1);
+    Array<std::int64_t> lowest(part.hull_points() / parts + 1, std::numeric_limits<std::int64_t>::max());
+    for (const Array<PointUse>& of_rank : asked) {
+        for (const PointUse& use : of_rank) {
+            std::int64_t& cell = lowest[use.point - begin];
+            cell = std::min(cell, use.cell);
+        }
+    }
+    std::vector<Array<std::int64_t>> answers(parts);
+    for (std::size_t r = 0; r < parts; ++r) {
+        for (const PointUse& use : asked[r]) {
+            answers[r].push_back(lowest[use.point - begin]);
+        }
+    }
+    const std::vector<Array<std::int64_t>> told = ranks.all_to_all(answers);
+    std::size_t k = 0;
+    for (const Array<std::int64_t>& of_home : told) { // homes are in the order of points
+        for (const std::int64_t cell : of_home) {
+            first[k++] = cell;
+        }
+    }
+    return first;
 }
 
 std::size_t row_count(const DataArray& array) {
@@ -351,8 +450,62 @@ std::span<const Neighbors<D>> as_table(const IntegerList& neighbors, std::size_t
 template<int D>
 void write_hull(io::AtomicFiles& files, const std::filesystem::path& path, const Hull<D>& hull,
                 const std::string& format, const io::WriteOptions& options) {
-    const MeshColumns mesh = format == "msh" ? msh_columns(hull) : vtu_columns(hull);
+    MeshColumns mesh;
+    if (format == "msh") {
+        mesh = msh_columns(rows_of(hull));
+        mesh.groups = groups_of<D>(hull, hull.cells.size());
+    } else {
+        mesh = vtu_columns(rows_of(hull), cells_of_points(hull));
+    }
     io::format_named(format)->write(files, path, mesh, options);
+}
+
+template<int D>
+PartToWrite<D> part_to_write(const HullPart<D>& part, const HullOrder<D>& order, Communicator& ranks) {
+    PartToWrite<D> all{part,
+                       order,
+                       static_cast<std::size_t>(ranks.rank()),
+                       static_cast<std::size_t>(ranks.size()),
+                       first_cells_in_hull(part, ranks),
+                       {}};
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<Point<3>, 2> box{Point<3>{infinity, infinity, infinity},
+                                Point<3>{-infinity, -infinity, -infinity}};
+    for (const Point<D + 1>& point : part.points) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            box[0][k] = std::min(box[0][k], point[k]);
+            box[1][k] = std::max(box[1][k], point[k]);
+        }
+    }
+    for (const auto& [lower, upper] : ranks.gather(box)) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            box[0][k] = std::min(box[0][k], lower[k]);
+            box[1][k] = std::max(box[1][k], upper[k]);
+        }
+    }
+    all.box = box;
+    return all;
+}
+
+template<int D>
+void write_part(io::AtomicFiles& files, const std::filesystem::path& path, const PartToWrite<D>& part,
+                const std::string& format, const io::WriteOptions& options) {
+    const HullRows<D> rows = rows_of(part.part, part.order);
+    const std::span<const std::int64_t> first_cells{part.first_cells};
+    io::PieceColumns piece;
+    piece.mesh =
+        format == "msh" ? msh_columns(rows) : vtu_columns(rows, Column<std::int64_t>::over(first_cells));
+    piece.pieces = part.parts;
+    piece.number = part.number;
+    piece.all_cells = part.part.hull_cells;
+    piece.first_cell = part.part.range.first;
+    piece.points = part.part.points_used;
+    if (format == "msh") {
+        piece.groups = groups_of<D>(part.order, part.part.hull_cells);
+    }
+    piece.lower_corner = part.box[0];
+    piece.upper_corner = part.box[1];
+    io::format_named(format)->write_piece(files, path, piece, options);
 }
 
 template<int D>
@@ -555,6 +708,12 @@ MeshArrays<D> mesh_of_soup(const io::Soup& soup) {
 template void write_hull<2>(io::AtomicFiles&, const std::filesystem::path&, const Hull<2>&,
                             const std::string&, const io::WriteOptions&);
 template void write_hull<3>(io::AtomicFiles&, const std::filesystem::path&, const Hull<3>&,
+                            const std::string&, const io::WriteOptions&);
+template PartToWrite<2> part_to_write<2>(const HullPart<2>&, const HullOrder<2>&, Communicator&);
+template PartToWrite<3> part_to_write<3>(const HullPart<3>&, const HullOrder<3>&, Communicator&);
+template void write_part<2>(io::AtomicFiles&, const std::filesystem::path&, const PartToWrite<2>&,
+                            const std::string&, const io::WriteOptions&);
+template void write_part<3>(io::AtomicFiles&, const std::filesystem::path&, const PartToWrite<3>&,
                             const std::string&, const io::WriteOptions&);
 template void write_cap<2>(io::AtomicFile&, const SpatialMesh<2>&, double);
 template void write_cap<3>(io::AtomicFile&, const SpatialMesh<3>&, double);

@@ -42,7 +42,8 @@ Domain<D> mesh_bodies(const InitialBodies& bodies, const CapOptions& options, co
 
 template<int D>
 Domain<D> initial_domain(const Case& the_case, const IdCounter& ids, const Listener& listener,
-                         StageClock& clock, const std::function<void(const SpatialMesh<D>&)>& on_boundary) {
+                         StageClock& clock, const std::function<void(const SpatialMesh<D>&)>& on_boundary,
+                         Communicator* ranks) {
     if (const auto* file = std::get_if<InitialMesh>(&the_case.initial)) {
         const io::Soup soup = io::read_mesh(file->file, file->reading);
         clock.book("reading");
@@ -54,8 +55,10 @@ Domain<D> initial_domain(const Case& the_case, const IdCounter& ids, const Liste
         clock.book("initial boundary");
         return domain;
     }
-    return mesh_bodies<D>(std::get<InitialBodies>(the_case.initial), cap_options(the_case), ids, listener,
-                          clock, on_boundary);
+    CapOptions options = cap_options(the_case);
+    options.ranks = ranks;
+    return mesh_bodies<D>(std::get<InitialBodies>(the_case.initial), options, ids, listener, clock,
+                          on_boundary);
 }
 
 template<int D>
@@ -67,9 +70,9 @@ SpatialMesh<D> initial_cap(const Case& the_case, IdCounter& ids, const Listener&
 }
 
 template Domain<2> initial_domain<2>(const Case&, const IdCounter&, const Listener&, StageClock&,
-                                     const std::function<void(const SpatialMesh<2>&)>&);
+                                     const std::function<void(const SpatialMesh<2>&)>&, Communicator*);
 template Domain<3> initial_domain<3>(const Case&, const IdCounter&, const Listener&, StageClock&,
-                                     const std::function<void(const SpatialMesh<3>&)>&);
+                                     const std::function<void(const SpatialMesh<3>&)>&, Communicator*);
 template SpatialMesh<2> initial_cap<2>(const Case&, IdCounter&, const Listener&, StageClock&);
 template SpatialMesh<3> initial_cap<3>(const Case&, IdCounter&, const Listener&, StageClock&);
 

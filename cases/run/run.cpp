@@ -12,6 +12,7 @@
 #include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/initial.h"
 #include "slabhull/cases/settings.h"
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
@@ -172,14 +173,17 @@ template<int D>
 class Runner {
 public:
     Runner(const Case& the_case, const RunOptions& options, const Listener& listener)
-        : case_{the_case}, listener_{listener},
+        : case_{the_case}, listener_{listener}, ranks_{options.ranks},
           meter_{listener, the_case.start, the_case.end, the_case.slabs}, watched_{meter_.watch()} {
         if (!case_.check_embedding) {
             listener_.warning("check.embedding is false: nothing proves that the hulls do not cross "
                               "themselves between levels");
         }
-        io::make_folder(case_.directory);
-        io::remove_stale_parts(case_.directory);
+        if (first()) {
+            io::make_folder(case_.directory);
+            io::remove_stale_parts(case_.directory);
+        }
+        meet();
         if (!options.resume || !resume()) {
             begin();
         }
@@ -193,7 +197,7 @@ public:
             }
             settle_all();
         } catch (const Error&) {
-            if (result_.files.size() > before) {
+            if (first() && result_.files.size() > before) {
                 const ProgressScope to_the_end{{}};
                 try {
                     write_overview();
@@ -202,7 +206,9 @@ public:
             }
             throw;
         }
-        write_overview();
+        if (first()) {
+            write_overview();
+        }
         meter_.end();
         return std::move(result_);
     }
@@ -210,12 +216,22 @@ public:
 private:
     std::filesystem::path path_of(const std::string& name) const { return case_.directory / name; }
 
+    /// Whether this process speaks for all ranks.
+    bool first() const { return ranks_ == nullptr || ranks_->first(); }
+    /// Waits for the other ranks.
+    void meet() const {
+        if (ranks_ != nullptr) {
+            ranks_->barrier();
+        }
+    }
+
     void begin() {
         enter_stage("initial cap");
         StageClock clock;
-        Domain<D> domain = initial_domain<D>(case_, {}, listener_, clock, [this](const SpatialMesh<D>& mesh) {
+        const auto on_boundary = [this](const SpatialMesh<D>& mesh) {
             prepare(boundary_of(mesh), mesh, case_.start);
-        });
+        };
+        Domain<D> domain = initial_domain<D>(case_, {}, listener_, clock, on_boundary, ranks_);
         initial_ = report_of_initial(domain.mesh, clock);
         start(march_from<D>(std::move(domain), case_.start));
     }
@@ -235,6 +251,10 @@ private:
                 "are, and what is left to do follows the new file; to build all of it anew, run without "
                 "--resume",
                 path.string()));
+        }
+        if (!first()) {
+            start(std::move(checkpoint.state));
+            return true;
         }
         journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
         journal_->each_line([this](const std::string& line) {
@@ -258,13 +278,15 @@ private:
         if (!settings_) {
             settings_ = case_settings<D>(case_, boundary);
             settings_->slab.layers.suggest = !told_of_layers_;
+            settings_->slab.ranks = ranks_;
+            settings_->slab.cap.ranks = ranks_;
             look_ahead(boundary, cap, time, settings_->slab);
         }
     }
 
     void look_ahead(const Boundary<D>& boundary, const SpatialMesh<D>& cap, double time,
                     const SlabSettings<D>& settings) {
-        if (case_.cap_reuse != CapReuse::none || thread_count() < 2) {
+        if (case_.cap_reuse != CapReuse::none || thread_count() < 2 || ranks_ != nullptr) {
             return;
         }
         ahead_.emplace(boundary, cap, time, settings, [this](double begin) {
@@ -285,6 +307,7 @@ private:
         StageClock clock;
         std::optional<SoundHull> sound;
         std::optional<MarchState<D>> after; ///< the march's state after it, if that has gone on already
+        std::optional<PartToWrite<D>> part; ///< of a rank
         SlabFiles files;                    ///< last, so that they are waited for before the slab goes
     };
 
@@ -300,12 +323,12 @@ private:
             settle_all(); // the slabs before come first, and so do their faults
             throw;
         }
-        meter_.hull_built(built->slab.hull.cells.size());
+        meter_.hull_built(built->slab.hull_cells());
         warn_of_layers(built->slab);
         warn_of_halvings(built->slab);
         built->files.stage.emplace(
-            "writing", static_cast<std::uint64_t>(file_bytes_per_cell_ *
-                                                  static_cast<double>(built->slab.hull.cells.size())));
+            "writing",
+            static_cast<std::uint64_t>(file_bytes_per_cell_ * static_cast<double>(built->slab.hull_cells())));
         if (can_go_on_meanwhile(*built)) {
             march_->accept(built->slab);
             built->after = state_without_cells(march_->state());
@@ -328,7 +351,7 @@ private:
             settle_first();
         }
         const double bytes = 2 * bytes_per_simplex(case_) * static_cast<double>(built.slab.hull.cells.size());
-        return thread_count() > 1 && bytes < static_cast<double>(available_memory());
+        return thread_count() > 1 && ranks_ == nullptr && bytes < static_cast<double>(available_memory());
     }
 
     /// Waits until the first slab that is not yet on the disk is there. Throws what went wrong with it.
@@ -350,12 +373,15 @@ private:
     void examine(Built& built) {
         StageClock clock;
         const Slab<D>& slab = built.slab;
-        begin_writing(slab, built.filled,
-                      built.files); // the disk is slow: it works while the hull is checked
-        built.sound = require_sound_hull<D>(slab.hull, fmt::format("the hull of slab {}", slab.hull.slab),
-                                            case_.check_embedding, clock);
-        built.files.stage->show();
-        wait_for(built.files.written);
+        if (slab.part) {
+            built.part.emplace(part_to_write(*slab.part, slab.hull, *ranks_));
+        }
+        on_all_ranks([&] {
+            begin_writing(slab, built.part, built.filled, built.files); // beside the check: the disk is slow
+            built.sound = require_sound(slab, clock);
+            built.files.stage->show();
+            wait_for(built.files.written);
+        });
         clock.book("writing");
         built.clock.add(clock);
     }
@@ -363,19 +389,17 @@ private:
     /// Puts the files of a slab in place, and takes it into journal and checkpoint.
     void record(Built& built) {
         Slab<D>& slab = built.slab;
-        const std::size_t cells = slab.hull.cells.size();
-        const std::vector<std::filesystem::path> paths = built.files.open.paths();
-        if (!journal_) {
-            replace_earlier_run();
-        }
-        built.files.open.commit();
-        result_.files.insert(result_.files.end(), paths.begin(), paths.end());
-        result_.cells += cells;
-        result_.points += slab.hull.points.size();
+        on_all_ranks([&] { commit(built.files); });
+        result_.cells += slab.hull_cells();
+        result_.points += slab.hull_points();
         ++result_.slabs;
         // The next slab's files will be about as large.
-        file_bytes_per_cell_ = static_cast<double>(built.files.stage->done()) / static_cast<double>(cells);
+        file_bytes_per_cell_ =
+            static_cast<double>(built.files.stage->done()) / static_cast<double>(slab.hull_cells());
         Json report = report_of(slab, *built.sound, built.clock);
+        if (ranks_ != nullptr) {
+            report["ranks"] = report_of_ranks(slab);
+        }
         if (built.filled) {
             report["fill"] = built.filled->report;
         }
@@ -383,10 +407,75 @@ private:
         if (!built.after) {
             march_->accept(std::move(slab));
         }
-        journal_->append(report.dump());
-        write_checkpoint(path_of(checkpoint_name), built.after ? *built.after : march_->state(),
-                         {cap, built.files.cap_checksum, journal_->size(), case_.checksum});
+        on_all_ranks([&] {
+            if (first()) {
+                journal_->append(report.dump());
+                write_checkpoint(path_of(checkpoint_name), built.after ? *built.after : march_->state(),
+                                 {cap, built.files.cap_checksum, journal_->size(), case_.checksum});
+            }
+        });
         meter_.end_slab(built.clock);
+    }
+
+    SoundHull require_sound(const Slab<D>& slab, StageClock& clock) const {
+        const std::string name = fmt::format("the hull of slab {}", slab.hull.slab);
+        return slab.part ? require_sound_parts<D>(*slab.part, slab.hull, *ranks_, name, case_.check_embedding,
+                                                  clock)
+                         : require_sound_hull<D>(slab.hull, name, case_.check_embedding, clock);
+    }
+
+    /// Does work in which any rank may fail: if one does, all do.
+    template<class Work>
+    void on_all_ranks(const Work& work) const {
+        if (ranks_ != nullptr) {
+            together(*ranks_, work);
+        } else {
+            work();
+        }
+    }
+
+    /// Gives the files of a slab their names: those of the other ranks before those of the first, which name
+    /// them. All are on the disk of each rank by now.
+    void commit(SlabFiles& files) {
+        if (first() && !journal_) {
+            replace_earlier_run();
+        }
+        meet();
+        if (!first()) {
+            files.open.commit();
+        }
+        list_files_of_others(files.open.paths());
+        if (first()) {
+            files.open.commit();
+            result_.files.insert(result_.files.end(), files.open.paths().begin(), files.open.paths().end());
+        }
+    }
+
+    /// Takes the files of the other ranks into the result, when they have their names.
+    void list_files_of_others(const std::vector<std::filesystem::path>& paths) {
+        if (ranks_ == nullptr) {
+            return;
+        }
+        std::string lines;
+        for (const std::filesystem::path& path : paths) {
+            lines += path.string() + '\0';
+        }
+        const std::vector<Array<char>> all = ranks_->all_gather<char>(lines);
+        for (std::size_t r = 1; r < all.size() && first(); ++r) {
+            for (auto begin = all[r].begin(); begin != all[r].end();) {
+                const auto end = std::find(begin, all[r].end(), '\0');
+                result_.files.emplace_back(std::string{begin, end});
+                begin = end + 1;
+            }
+        }
+    }
+
+    /// Cells and peak memory of each rank.
+    Json report_of_ranks(const Slab<D>& slab) const {
+        return {{"number", ranks_->size()},
+                {"cells", ranks_->gather(slab.part->cells.size())},
+                {"peak_memory", ranks_->gather(peak_memory())},
+                {"mesher_peak_memory", ranks_->gather(peak_memory_of_children())}};
     }
 
     /// Throws what went wrong with it.
@@ -565,10 +654,11 @@ private:
         }
     }
 
-    void begin_writing(const Slab<D>& slab, const std::optional<Filled>& filled, SlabFiles& files) {
+    void begin_writing(const Slab<D>& slab, const std::optional<PartToWrite<D>>& part,
+                       const std::optional<Filled>& filled, SlabFiles& files) {
         files.written = std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred,
-                                   files.stage->counted([this, &slab, &filled, &files] {
-                                       write(slab, files);
+                                   files.stage->counted([this, &slab, &part, &filled, &files] {
+                                       part ? write(slab, *part, files) : write(slab, files);
                                        if (filled) {
                                            write(filled->mesh, files);
                                        }
@@ -594,6 +684,22 @@ private:
         write_terminating_cap(cap, slab.hull);
         cap.finish();
         files.cap_checksum = cap.checksum();
+    }
+
+    /// This rank's part. The first rank writes the cap, too.
+    void write(const Slab<D>& slab, const PartToWrite<D>& part, SlabFiles& files) const {
+        for (const std::string& format : case_.formats) {
+            write_part(files.open, path_of(slab_name(slab.hull.slab, format)), part, format,
+                       case_.writing_of(format));
+            files.open.finish();
+        }
+        if (first()) {
+            io::AtomicFile& cap = files.open.open(path_of(cap_name(slab.hull.slab + 1)));
+            cap.keep_checksum();
+            write_cap(cap, *slab.cap, slab.hull.time[1]);
+            cap.finish();
+            files.cap_checksum = cap.checksum();
+        }
     }
 
     static Json report_of_initial(const SpatialMesh<D>& cap, const StageClock& clock) {
@@ -627,7 +733,7 @@ private:
         json["beside_cap_meshing"] = shares_as_json(clock);
         json["peak_memory"] = peaks_as_json();
         json["peak_memory"]["bytes_per_cell"] =
-            static_cast<double>(peak_memory()) / static_cast<double>(slab.hull.cells.size());
+            static_cast<double>(peak_memory()) / static_cast<double>(slab.hull_cells());
         return json;
     }
 
@@ -699,6 +805,7 @@ private:
 
     const Case& case_;
     const Listener& listener_;
+    Communicator* ranks_; ///< nullptr: this process alone
     ProgressMeter meter_;
     ProgressScope watched_;
     double file_bytes_per_cell_ = 0;          ///< in the last slab
@@ -723,11 +830,25 @@ private:
 
 } // namespace
 
-RunResult run_case(const Case& the_case, const Listener& listener, const RunOptions& options) {
+namespace {
+
+RunResult run_alone(const Case& the_case, const Listener& listener, const RunOptions& options) {
     require_files(the_case);
     warn_of_turns(the_case, listener);
     return the_case.dimension == 2 ? Runner<2>{the_case, options, listener}.run()
                                    : Runner<3>{the_case, options, listener}.run();
+}
+
+} // namespace
+
+RunResult run_case(const Case& the_case, const Listener& listener, const RunOptions& options) {
+    if (options.ranks == nullptr) {
+        return run_alone(the_case, listener, options);
+    }
+    return together(*options.ranks, [&] {
+        const Case divided = case_in_ranks(the_case, options.ranks->size());
+        return run_alone(divided, options.ranks->first() ? listener : Listener{}, options);
+    });
 }
 
 const char* version() {

@@ -6,6 +6,7 @@
 #include "geometry/meshing/sliver_repair.h"
 #include "geometry/meshing/solid_mesher.h"
 
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
@@ -122,28 +123,103 @@ CapMesh<3> BlockJoiner::finish(std::size_t boundary_facets) {
     return std::move(mesh_);
 }
 
+/// A block's surface, and the mesh of the block.
+struct MeshedBlock {
+    BlockSurface surface;
+    CapMesh<3> mesh;
+};
+
+MeshedBlock mesh_block(const DomainBlocks& blocks, std::size_t number, const SizeField<3>& size,
+                       const CapOptions& options) {
+    MeshedBlock block{surface_of_block(blocks.points, blocks.facets[number]), {}};
+    block.mesh = fill(Boundary<3>{block.surface.surface}, block.surface.surface, size, options);
+    return block;
+}
+
+/// Consecutive blocks from `first` on, meshed at once in processes of this machine.
+std::vector<MeshedBlock> mesh_blocks(const DomainBlocks& blocks, std::size_t first, std::size_t count,
+                                     const SizeField<3>& size, const CapOptions& options) {
+    std::vector<MeshedBlock> meshed(count);
+    parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            meshed[k] = mesh_block(blocks, first + k, size, options);
+        }
+    });
+    return meshed;
+}
+
+/// The mesh of each rank, on all of them.
+std::vector<CapMesh<3>> gather_meshes(Communicator& ranks, const CapMesh<3>& mine) {
+    auto points = ranks.all_gather<Point<3>>(mine.points);
+    auto cells = ranks.all_gather<Simplex<3>>(mine.cells);
+    auto neighbors = ranks.all_gather<Neighbors<3>>(mine.neighbors);
+    std::vector<CapMesh<3>> all(points.size());
+    for (std::size_t r = 0; r < all.size(); ++r) {
+        all[r].points = std::move(points[r]);
+        all[r].cells = std::move(cells[r]);
+        all[r].neighbors = std::move(neighbors[r]);
+    }
+    return all;
+}
+
+/// The same, one block by each rank; all get all of them.
+std::vector<MeshedBlock> mesh_blocks_in_ranks(const DomainBlocks& blocks, std::size_t first,
+                                              std::size_t count, const SizeField<3>& size,
+                                              const CapOptions& options) {
+    Communicator& ranks = *options.ranks;
+    const auto mine = static_cast<std::size_t>(ranks.rank());
+    const MeshedBlock own = together(ranks, [&] {
+        return mine < count ? mesh_block(blocks, first + mine, size, options) : MeshedBlock{};
+    });
+    std::vector<CapMesh<3>> meshes = gather_meshes(ranks, own.mesh);
+    std::vector<MeshedBlock> all(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        all[k] = {surface_of_block(blocks.points, blocks.facets[first + k]), std::move(meshes[k])};
+    }
+    return all;
+}
+
 CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, const CapOptions& options,
                          std::size_t at_once, double expected_cells, const Surface<3>& boundary) {
     BlockJoiner joiner{blocks, static_cast<std::size_t>(expected_cells)};
     for (std::size_t first = 0; first < blocks.facets.size(); first += at_once) {
         const std::size_t count = std::min(at_once, blocks.facets.size() - first);
-        std::vector<BlockSurface> surfaces(count);
-        std::vector<CapMesh<3>> parts(count);
-        parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k) {
-                surfaces[k] = surface_of_block(blocks.points, blocks.facets[first + k]);
-                parts[k] = fill(Boundary<3>{surfaces[k].surface}, surfaces[k].surface, size, options);
-            }
-        });
-        for (std::size_t k = 0; k < count; ++k) {
-            joiner.add(surfaces[k], parts[k]);
-            parts[k] = {};
+        std::vector<MeshedBlock> meshed = options.ranks != nullptr
+                                              ? mesh_blocks_in_ranks(blocks, first, count, size, options)
+                                              : mesh_blocks(blocks, first, count, size, options);
+        for (MeshedBlock& block : meshed) {
+            joiner.add(block.surface, block.mesh);
+            block = {};
         }
     }
     CapMesh<3> mesh = joiner.finish(boundary.facets.size());
     repair_slivers(mesh, boundary.points.size(), options.min_dihedral); // interfaces may move now
     mesh.blocks = static_cast<int>(blocks.facets.size());
     return mesh;
+}
+
+/// Meshes in one block: in ranks, the first does for all.
+CapMesh<3> mesh_whole(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                      const CapOptions& options) {
+    if (options.ranks == nullptr) {
+        return fill(boundary, surface, size, options);
+    }
+    const CapMesh<3> mine = together(*options.ranks, [&] {
+        return options.ranks->first() ? fill(boundary, surface, size, options) : CapMesh<3>{};
+    });
+    return std::move(gather_meshes(*options.ranks, mine).front());
+}
+
+/// How many blocks are meshed at the same time.
+std::size_t blocks_at_once(const CapOptions& options, double cells, int count, double memory) {
+    if (options.ranks != nullptr) {
+        return static_cast<std::size_t>(options.ranks->size());
+    }
+    int at_once = std::min(thread_count(), count);
+    while (at_once > 1 && bytes_for(options.mesher, cells, count, at_once) > memory) {
+        --at_once;
+    }
+    return static_cast<std::size_t>(at_once);
 }
 
 } // namespace
@@ -161,8 +237,11 @@ int blocks_that_fit(SolidMesher mesher, double cells, double bytes) {
 
 CapMesh<3> mesh_in_blocks(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                           const CapOptions& options) {
+    if (options.ranks != nullptr && options.blocks == 0) {
+        throw UsageError{"ranks mesh a cap in a given number of blocks, as their memory may differ"};
+    }
     if (options.blocks == 1) {
-        return fill(boundary, surface, size, options);
+        return mesh_whole(boundary, surface, size, options);
     }
     const double memory = usable_memory * static_cast<double>(available_memory());
     if (options.blocks == 0 &&
@@ -177,11 +256,8 @@ CapMesh<3> mesh_in_blocks(const Boundary<3>& boundary, const Surface<3>& surface
     }
     const DomainBlocks blocks =
         cut_domain(boundary, surface, size, options.grading.growth, std::move(load), count);
-    int at_once = std::min(thread_count(), count);
-    while (at_once > 1 && bytes_for(options.mesher, cells, count, at_once) > memory) {
-        --at_once;
-    }
-    return mesh_and_join(blocks, size, options, static_cast<std::size_t>(at_once), cells, surface);
+    return mesh_and_join(blocks, size, options, blocks_at_once(options, cells, count, memory), cells,
+                         surface);
 }
 
 } // namespace slabhull

@@ -51,6 +51,16 @@ void write_msh_as(AtomicFiles& files, const std::filesystem::path& path, const M
     }
 }
 
+void write_msh_piece_as(AtomicFiles& files, const std::filesystem::path& path, const PieceColumns& piece,
+                        const WriteOptions& options) {
+    write_msh_piece(files, path, piece, msh_options(options));
+}
+
+void write_pvtu_piece_as(AtomicFiles& files, const std::filesystem::path& path, const PieceColumns& piece,
+                         const WriteOptions& options) {
+    write_pvtu_piece(files, path, piece, vtu_encoding(options));
+}
+
 void write_pvtu_as(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                    const WriteOptions& options) {
     write_pvtu(files, path, mesh, std::max<std::size_t>(1, options.pieces), vtu_encoding(options));
@@ -155,6 +165,7 @@ FormatTable make_table() {
          .signatures = {"$MeshFormat", "$Comments"},
          .read = {read_msh, read_msh},
          .write = write_msh_as,
+         .write_piece = write_msh_piece_as,
          .features = msh_features,
          .variants = msh_variants},
         {.name = "vtu",
@@ -171,6 +182,7 @@ FormatTable make_table() {
          .signatures = {},
          .read = {read_pvtu, read_pvtu},
          .write = write_pvtu_as,
+         .write_piece = write_pvtu_piece_as,
          .features = vtu_features,
          .variants = pvtu_variants},
         {.name = "vtk",

@@ -86,6 +86,11 @@ DataColumn numbers_from(std::size_t first, std::size_t count) {
     });
 }
 
+void add_global_numbers(MeshPiece& piece) {
+    piece.mesh.point_data.push_back(numbers_of(piece.points));
+    piece.mesh.cell_data.push_back(numbers_from(piece.first_cell, piece.mesh.cells.rows()));
+}
+
 std::vector<MeshColumns::Group> groups_within(const std::vector<MeshColumns::Group>& all, std::size_t first,
                                               std::size_t last) {
     std::vector<MeshColumns::Group> groups;
@@ -131,6 +136,15 @@ std::string global_ids_attribute(const std::vector<DataColumn>& data) {
         }
     }
     return {};
+}
+
+MeshPiece mesh_piece(const PieceColumns& columns) {
+    require_no_global_numbers(columns.mesh);
+    MeshPiece piece{columns.mesh, columns.first_cell, columns.points, {}};
+    add_global_numbers(piece);
+    piece.mesh.groups =
+        groups_within(columns.groups, columns.first_cell, columns.first_cell + piece.mesh.cells.rows());
+    return piece;
 }
 
 MeshPieces::MeshPieces(const MeshColumns& mesh, std::size_t pieces)
@@ -196,8 +210,7 @@ MeshPiece MeshPieces::next() {
     piece.mesh.point_data =
         picked(mesh_.point_data, [&](const auto& column) { return of_points(column, piece.points); });
     piece.mesh.cell_data = picked(mesh_.cell_data, cells);
-    piece.mesh.point_data.push_back(numbers_of(piece.points));
-    piece.mesh.cell_data.push_back(numbers_from(first, count));
+    add_global_numbers(piece);
     piece.mesh.field_data = mesh_.field_data;
     piece.mesh.groups = groups_within(mesh_.groups, first, first + count);
     for (std::size_t part = 0; part < mesh_.lower.size(); ++part) {

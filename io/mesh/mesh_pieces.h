@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "io/mesh/point_set.h"
+#include "slabhull/core/point_set.h"
+#include "slabhull/io/piece.h"
 #include "slabhull/io/soup.h"
 
 #include <cstddef>
@@ -26,6 +27,9 @@ struct MeshPiece {
     std::shared_ptr<const PointSet> points;             ///< its points in the whole mesh
     std::vector<std::shared_ptr<const PointSet>> lower; ///< its lower simplices in each Part
 };
+
+/// The same of a piece that was made elsewhere.
+MeshPiece mesh_piece(const PieceColumns& piece);
 
 /// The pieces of a mesh: ranges of cells of nearly equal length, in order, and the points that each uses, in
 /// their order in the mesh. A simplex of a lower dimension belongs to the first piece that has its points, or

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "io/mesh/point_set.h"
 #include "slabhull/core/point.h"
+#include "slabhull/core/point_set.h"
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/io/files.h"
 #include "slabhull/io/soup.h"

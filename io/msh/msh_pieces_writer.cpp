@@ -32,27 +32,47 @@ void drop_global_numbers(std::vector<DataColumn>& data) {
         data, [](const DataColumn& each) { return each.name == global_points || each.name == global_cells; });
 }
 
+void require_pieces(const std::filesystem::path& path, const MshOptions& options) {
+    if (options.ascii || options.version != MshVersion::v4_1) {
+        throw UsageError{fmt::format("{}: MSH in pieces is version 4.1, binary", path.string())};
+    }
+}
+
+void write_msh_of_piece(AtomicFiles& files, const std::filesystem::path& path, MeshPiece&& piece,
+                        const std::vector<MshPart>& model, const Box& box, std::size_t pieces,
+                        std::size_t number, const MshOptions& options) {
+    drop_global_numbers(piece.mesh.point_data);
+    drop_global_numbers(piece.mesh.cell_data);
+    AtomicFile& file = files.open(piece_path(path, number + 1, ".msh"));
+    write_msh(file, {piece.mesh, parts_of(piece, model), {0, piece.points.get()}, model, box, pieces, number},
+              options);
+    file.finish();
+}
+
 } // namespace
 
 void write_msh_pieces(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                       std::size_t pieces, const MshOptions& options) {
-    if (options.ascii || options.version != MshVersion::v4_1) {
-        throw UsageError{fmt::format("{}: MSH in pieces is version 4.1, binary", path.string())};
-    }
+    require_pieces(path, options);
     require_msh_rows(mesh);
     const std::vector<MshPart> model = msh_parts(mesh);
     const Box box = box_of(mesh.points);
     MeshPieces parts{mesh, pieces};
     for (std::size_t number = 0; !parts.at_end(); ++number) {
-        MeshPiece piece = parts.next();
-        drop_global_numbers(piece.mesh.point_data);
-        drop_global_numbers(piece.mesh.cell_data);
-        AtomicFile& file = files.open(piece_path(path, number + 1, ".msh"));
-        write_msh(file,
-                  {piece.mesh, parts_of(piece, model), {0, piece.points.get()}, model, box, pieces, number},
-                  options);
-        file.finish();
+        write_msh_of_piece(files, path, parts.next(), model, box, pieces, number, options);
     }
+}
+
+void write_msh_piece(AtomicFiles& files, const std::filesystem::path& path, const PieceColumns& piece,
+                     const MshOptions& options) {
+    require_pieces(path, options);
+    require_msh_rows(piece.mesh);
+    MeshColumns whole; // its cells are only counted
+    whole.dimension = piece.mesh.dimension;
+    whole.cells = {piece.all_cells, whole.dimension + 1, nullptr};
+    whole.groups = piece.groups;
+    write_msh_of_piece(files, path, mesh_piece(piece), msh_parts(whole),
+                       {piece.lower_corner, piece.upper_corner}, piece.pieces, piece.number, options);
 }
 
 } // namespace slabhull::io

@@ -8,6 +8,7 @@
 #include "io/vtk/xml_text.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace slabhull::io {
 
@@ -46,24 +47,45 @@ std::string head_of(const MeshColumns& piece) {
            array_tag(vtk_name<double>(), "Points", 3) + "</PPoints>\n";
 }
 
+void write_vtu_of_piece(AtomicFiles& files, const std::filesystem::path& path, const MeshPiece& piece,
+                        std::size_t number, VtuEncoding encoding) {
+    AtomicFile& file = files.open(piece_path(path, number, ".vtu"));
+    write_vtu(file, piece.mesh, encoding);
+    file.finish();
+}
+
+/// The .pvtu: the head that any piece gives, and the names of all.
+void write_index(AtomicFiles& files, const std::filesystem::path& path, std::string xml, std::size_t pieces) {
+    for (std::size_t number = 0; number < pieces; ++number) {
+        xml += fmt::format("<Piece Source=\"{}\"/>\n",
+                           escaped(piece_path(path, number, ".vtu").filename().string()));
+    }
+    files.open(path).write(xml + "</PUnstructuredGrid>\n</VTKFile>\n");
+}
+
 } // namespace
 
 void write_pvtu(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                 std::size_t pieces, VtuEncoding encoding) {
     MeshPieces parts{mesh, pieces};
-    std::string xml;
+    std::string head;
     for (std::size_t number = 0; !parts.at_end(); ++number) {
         const MeshPiece piece = parts.next();
-        const std::filesystem::path name = piece_path(path, number, ".vtu");
         if (number == 0) {
-            xml = head_of(piece.mesh);
+            head = head_of(piece.mesh);
         }
-        AtomicFile& file = files.open(name);
-        write_vtu(file, piece.mesh, encoding);
-        file.finish();
-        xml += fmt::format("<Piece Source=\"{}\"/>\n", escaped(name.filename().string()));
+        write_vtu_of_piece(files, path, piece, number, encoding);
     }
-    files.open(path).write(xml + "</PUnstructuredGrid>\n</VTKFile>\n");
+    write_index(files, path, std::move(head), pieces);
+}
+
+void write_pvtu_piece(AtomicFiles& files, const std::filesystem::path& path, const PieceColumns& columns,
+                      VtuEncoding encoding) {
+    const MeshPiece piece = mesh_piece(columns);
+    write_vtu_of_piece(files, path, piece, columns.number, encoding);
+    if (columns.number == 0) {
+        write_index(files, path, head_of(piece.mesh), columns.pieces);
+    }
 }
 
 } // namespace slabhull::io

@@ -18,9 +18,6 @@ namespace slabhull {
 
 namespace {
 
-/// Largest sum of normals, relative to the sum of their lengths, that rounding can cause.
-constexpr double closure_tolerance = 1e-10;
-
 /// Runs the checks in order; each may need results of those before it.
 template<int D>
 class HullCheck {
@@ -114,7 +111,8 @@ private:
         }
         const CellSurvey<D> survey = survey_cells(view_);
         report_degenerate<D, D + 1>(view_.points(), view_.cells(), survey.degenerate, findings_);
-        add_measures(survey.regions);
+        add_measures<D>(survey.regions, report_);
+        judge_measures();
         if (!caps || findings_.any({Defect::cap_not_flat, Defect::time_outside_slab})) {
             findings_.skip("caps, tracks, patches, layers", "the caps are not in place");
             return;
@@ -123,23 +121,6 @@ private:
         report_inverted(view_, inside_out ? survey_cells(view_, -1).inverted : survey.inverted, findings_);
         examine_claims();
         examine_boundary();
-    }
-
-    void add_measures(const std::array<Measures<D>, 3>& regions) {
-        Point<D + 1> closure{};
-        for (std::size_t r = 0; r < 3; ++r) {
-            report_.cells_by_region[r] = regions[r].cells;
-            report_.measure_by_region[r] = regions[r].measure;
-            report_.measure += regions[r].measure;
-            report_.enclosed += regions[r].enclosed;
-            report_.angles.smallest = std::min(report_.angles.smallest, regions[r].angles.smallest);
-            report_.angles.largest = std::max(report_.angles.largest, regions[r].angles.largest);
-            for (std::size_t k = 0; k <= D; ++k) {
-                closure[k] += regions[r].closure[k];
-            }
-        }
-        report_.closure = norm(closure);
-        judge_measures();
     }
 
     void judge_measures() {
@@ -205,6 +186,26 @@ private:
 };
 
 } // namespace
+
+template<int D>
+void add_measures(const std::array<Measures<D>, 3>& regions, HullReport& report) {
+    Point<D + 1> closure{};
+    for (std::size_t r = 0; r < 3; ++r) {
+        report.cells_by_region[r] = regions[r].cells;
+        report.measure_by_region[r] = regions[r].measure;
+        report.measure += regions[r].measure;
+        report.enclosed += regions[r].enclosed;
+        report.angles.smallest = std::min(report.angles.smallest, regions[r].angles.smallest);
+        report.angles.largest = std::max(report.angles.largest, regions[r].angles.largest);
+        for (std::size_t k = 0; k <= D; ++k) {
+            closure[k] += regions[r].closure[k];
+        }
+    }
+    report.closure = norm(closure);
+}
+
+template void add_measures<2>(const std::array<Measures<2>, 3>&, HullReport&);
+template void add_measures<3>(const std::array<Measures<3>, 3>&, HullReport&);
 
 template<int D>
 HullColumns<D> columns_of(const Hull<D>& hull) {

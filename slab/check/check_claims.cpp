@@ -22,22 +22,6 @@ void check_length(Column<std::int64_t>& column, const char* name, std::size_t ro
     column = {};
 }
 
-/// Number of cells that begin, or end, at each time.
-using TimeCounts = std::map<double, std::size_t>;
-
-/// Numbers of a layer's cells by first time and by last time.
-using LayerTimes = std::array<TimeCounts, 2>;
-
-using Layers = std::map<std::int64_t, LayerTimes>;
-
-void add(LayerTimes& sum, const LayerTimes& more) {
-    for (std::size_t end = 0; end < 2; ++end) {
-        for (const auto& [time, count] : more[end]) {
-            sum[end][time] += count;
-        }
-    }
-}
-
 /// Whether a side cell's claim is a layer at all; other claims are reported separately.
 bool is_side_layer(std::int64_t claimed) {
     return claimed >= 0;
@@ -67,7 +51,7 @@ Layers collect_layers(const HullView<D>& view) {
         }
         const std::lock_guard guard{lock};
         for (const auto& [layer, more] : found) {
-            add(layers[layer], more);
+            add_layer_times(layers[layer], more);
         }
     });
     return layers;
@@ -129,11 +113,24 @@ void check_column_lengths(HullColumns<D>& hull, Findings& findings) {
     check_length(hull.cell_of_vertex, "cell", hull.points.size(), 1, findings);
 }
 
+void add_layer_times(LayerTimes& sum, const LayerTimes& more) {
+    for (std::size_t end = 0; end < 2; ++end) {
+        for (const auto& [time, count] : more[end]) {
+            sum[end][time] += count;
+        }
+    }
+}
+
 template<int D>
-std::size_t check_layers(const HullView<D>& view, Findings& findings) {
+std::size_t check_layers(const HullView<D>& view, Findings& findings,
+                         const std::function<void(Layers& layers)>& complete) {
     report_layers_of_wrong_regions(view, findings);
+    Layers all = collect_layers(view);
+    if (complete) {
+        complete(all);
+    }
     LayerSpans spans;
-    for (const auto& [layer, times] : collect_layers(view)) {
+    for (const auto& [layer, times] : all) {
         spans[layer] = {commonest(times[0]), commonest(times[1])};
     }
     const auto out_of_layer = cells_out_of_layer(view, spans);
@@ -233,8 +230,8 @@ void check_cell_of_vertex(const HullView<D>& view, Findings& findings) {
 
 template void check_column_lengths<2>(HullColumns<2>&, Findings&);
 template void check_column_lengths<3>(HullColumns<3>&, Findings&);
-template std::size_t check_layers<2>(const HullView<2>&, Findings&);
-template std::size_t check_layers<3>(const HullView<3>&, Findings&);
+template std::size_t check_layers<2>(const HullView<2>&, Findings&, const std::function<void(Layers&)>&);
+template std::size_t check_layers<3>(const HullView<3>&, Findings&, const std::function<void(Layers&)>&);
 template void check_vertex_ids<2>(const HullView<2>&, Findings&);
 template void check_vertex_ids<3>(const HullView<3>&, Findings&);
 template void check_neighbors<2>(const HullView<2>&, Findings&);

@@ -3,6 +3,7 @@
 #include "slab/check/hull_view.h"
 
 #include "core/pieces.h"
+#include "slabhull/core/communicator.h"
 
 #include <fmt/format.h>
 
@@ -302,6 +303,23 @@ void check_patch_columns(const HullView<D>& view, Findings& findings) {
     }
 }
 
+template<int D>
+bool patch_columns_agree(const HullView<D>& view, Communicator& ranks) {
+    const FacetPatches<D> mine = patches_of_facets(view);
+    FacetPatches<D> facets;
+    for (const Array<FacetPatch<D>>& each : ranks.all_gather<FacetPatch<D>>(mine)) {
+        facets.insert(facets.end(), each.begin(), each.end());
+    }
+    sort_out(facets);
+    const bool differ = std::adjacent_find(facets.begin(), facets.end(), [](const auto& a, const auto& b) {
+                            return a.tracks == b.tracks;
+                        }) != facets.end();
+    const bool agrees = !differ && partial_claims_without<D>(view, patches_of_parts<D>(facets)).empty();
+    return ranks.min(agrees ? 1 : 0) == 1;
+}
+
+template bool patch_columns_agree<2>(const HullView<2>&, Communicator&);
+template bool patch_columns_agree<3>(const HullView<3>&, Communicator&);
 template std::vector<PatchCount> check_patches<2>(const HullView<2>&, Findings&);
 template std::vector<PatchCount> check_patches<3>(const HullView<3>&, Findings&);
 template void check_patch_columns<2>(const HullView<2>&, Findings&);

@@ -66,7 +66,7 @@ struct FoundRegions {
 template<int D>
 void find_regions(HullView<D>& view, FoundRegions& found) {
     static_assert(select_grain % RegionList::cells_per_byte == 0, "no two threads write to one byte");
-    view.region.reset(view.cells().size());
+    view.region.reset(view.cells().size() + view.outside);
     found.flat = select(view.cells().size(), [&](std::size_t c) {
         const auto [first, last] = view.span_of(c);
         const Region region = first != last           ? Region::intermediate
@@ -112,22 +112,22 @@ void report_flat(const HullView<D>& view, std::span<const Index> flat, Findings&
     }
 }
 
-/// V - E + F of a surface mesh with boundary: its E is (3 F + boundary edges) / 2.
+/// V - E + F of a surface mesh with boundary.
 std::int64_t euler_of_cap(const HullView<2>& view, Region cap) {
     std::vector<bool> used(view.points().size(), false);
-    std::int64_t triangles = 0;
-    std::int64_t boundary = 0;
+    CapCounts counts;
     for (std::size_t c = 0; c < view.cells().size(); ++c) {
         if (view.region_of(c) != cap) {
             continue;
         }
-        ++triangles;
+        ++counts.cells;
         for (std::size_t i = 0; i <= 2; ++i) {
             used[view.cells()[c][i]] = true;
-            boundary += view.region_of(view.adjacency.neighbors[c][i]) != cap;
+            counts.boundary += view.region_of(view.adjacency.neighbors[c][i]) != cap;
         }
     }
-    return std::count(used.begin(), used.end(), true) - (3 * triangles + boundary) / 2 + triangles;
+    counts.vertices = std::count(used.begin(), used.end(), true);
+    return counts.euler();
 }
 
 } // namespace
@@ -159,6 +159,17 @@ bool check_regions(HullView<D>& view, Findings& findings) {
 }
 
 template<int D>
+std::array<bool, 3> check_regions_of_part(HullView<D>& view, Findings& findings) {
+    FoundRegions found;
+    find_regions(view, found);
+    if (view.hull.region.given()) {
+        compare_regions(view, findings);
+    }
+    report_flat<D>(view, found.flat, findings);
+    return {found.any[0], found.any[1], found.any[2]};
+}
+
+template<int D>
 void report_inverted(const HullView<D>& view, std::span<const Index> inverted, Findings& findings) {
     for (const Index c : inverted) {
         findings.cell(Defect::inverted_cell, c,
@@ -183,6 +194,8 @@ void check_euler(const HullView<D>& view, const ManifoldCounts& counts, Findings
     }
 }
 
+template std::array<bool, 3> check_regions_of_part<2>(HullView<2>&, Findings&);
+template std::array<bool, 3> check_regions_of_part<3>(HullView<3>&, Findings&);
 template bool check_regions<2>(HullView<2>&, Findings&);
 template bool check_regions<3>(HullView<3>&, Findings&);
 template void report_inverted<2>(const HullView<2>&, std::span<const Index>, Findings&);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/check/boundary_changes.h"
 #include "slab/check/hull_view.h"
+#include "slab/check/part_stars.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <fmt/format.h>
@@ -292,6 +293,144 @@ void check_boundary_image(const BoundaryFacets<D>& boundary, BoundaryChanges<D>&
     }
 }
 
+namespace {
+
+/// A point of a track as its rank tells of it.
+struct TrackUse {
+    TrackId track;
+    double time;
+    std::uint8_t on_side; ///< whether a cell of the side has it
+};
+
+/// How the cells around each vertex use it: once an owner's stars are whole, that is how the hull does.
+struct VertexUse {
+    Array<std::uint8_t> in_cap;
+    Array<std::uint8_t> on_side;
+};
+
+template<int D>
+VertexUse use_of_vertices(const PartStars<D>& stars) {
+    VertexUse use;
+    use.in_cap.assign(stars.owned.size(), 0);
+    use.on_side.assign(stars.owned.size(), 0);
+    for (std::size_t c = 0; c < stars.cells.size(); ++c) {
+        const bool side = static_cast<Region>(stars.region[c]) == Region::intermediate;
+        for (const Index v : stars.cells[c]) {
+            (side ? use.on_side : use.in_cap)[v] = 1;
+        }
+    }
+    return use;
+}
+
+/// Whether tracks are whole, those inside caps apart: the points of each go to one rank.
+template<int D>
+bool tracks_are_whole(const HullView<D>& view, const PartStars<D>& stars, const VertexUse& use,
+                      Communicator& ranks) {
+    const auto count = static_cast<std::size_t>(ranks.size());
+    std::vector<Array<TrackUse>> to(count);
+    each_id(view.track, [&](std::size_t v, TrackId track) {
+        if (stars.owned[v] != 0 && track >= 0) {
+            to[static_cast<std::size_t>(track) % count].push_back(
+                {track, view.time_of(static_cast<Index>(v)), use.on_side[v]});
+        }
+    });
+    Array<TrackUse> uses;
+    for (const Array<TrackUse>& from : ranks.all_to_all(to)) {
+        uses.insert(uses.end(), from.begin(), from.end());
+    }
+    std::sort(uses.begin(), uses.end(), [](const TrackUse& a, const TrackUse& b) {
+        return std::tie(a.track, a.time) < std::tie(b.track, b.time);
+    });
+    for (auto first = uses.begin(); first != uses.end();) {
+        const auto end = std::find_if(first, uses.end(),
+                                      [&](const TrackUse& point) { return point.track != first->track; });
+        const bool repeats = std::adjacent_find(first, end, [](const TrackUse& a, const TrackUse& b) {
+                                 return a.time == b.time;
+                             }) != end;
+        const bool spans = first->time == view.time[0] && (end - 1)->time == view.time[1];
+        const bool inside =
+            std::none_of(first, end, [](const TrackUse& point) { return point.on_side != 0; });
+        if (repeats || !(spans || inside)) {
+            return false;
+        }
+        first = end;
+    }
+    return true;
+}
+
+/// A boundary facet of a cap as its rank tells of it.
+template<int D>
+struct FacetOfCap {
+    std::int64_t cap;
+    std::array<TrackId, D> tracks;
+    std::int64_t odd;
+    friend auto operator<=>(const FacetOfCap&, const FacetOfCap&) = default;
+};
+
+/// The boundary facets of both caps, from all ranks.
+template<int D>
+std::vector<FacetOfCap<D>> facets_of_caps(const HullView<D>& view, Communicator& ranks) {
+    std::vector<FacetOfCap<D>> mine;
+    for (const Index c : cap_cells_at_side(view)) {
+        for (std::size_t i = 0; i <= D; ++i) {
+            if (!view.in_cap(view.adjacency.neighbors[c][i])) {
+                const BoundaryFacet<D> facet = boundary_facet(view, c, i);
+                mine.push_back(
+                    {view.region_of(c) == Region::initial ? 0 : 1, facet.tracks, facet.odd ? 1 : 0});
+            }
+        }
+    }
+    std::vector<FacetOfCap<D>> all;
+    for (const Array<FacetOfCap<D>>& each : ranks.all_gather<FacetOfCap<D>>(mine)) {
+        all.insert(all.end(), each.begin(), each.end());
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+/// Whether every facet has tracks, and those of the terminating cap are those of the initial one.
+template<int D>
+bool are_images(const std::vector<FacetOfCap<D>>& facets) {
+    const auto terminating =
+        std::find_if(facets.begin(), facets.end(), [](const FacetOfCap<D>& facet) { return facet.cap == 1; });
+    return std::all_of(facets.begin(), facets.end(),
+                       [](const FacetOfCap<D>& facet) { return facet.tracks.front() >= 0; }) &&
+           std::equal(facets.begin(), terminating, terminating, facets.end(),
+                      [](const FacetOfCap<D>& a, const FacetOfCap<D>& b) {
+                          return a.tracks == b.tracks && a.odd == b.odd;
+                      });
+}
+
+/// Whether no vertex inside a cap is on a track of the boundary.
+template<int D>
+bool none_is_stray(const HullView<D>& view, const PartStars<D>& stars, const VertexUse& use,
+                   const std::vector<FacetOfCap<D>>& facets) {
+    std::vector<TrackId> boundary;
+    for (const FacetOfCap<D>& facet : facets) {
+        boundary.insert(boundary.end(), facet.tracks.begin(), facet.tracks.end());
+    }
+    std::sort(boundary.begin(), boundary.end());
+    bool none = true;
+    each_id(view.track, [&](std::size_t v, TrackId track) {
+        const bool inside = stars.owned[v] != 0 && use.in_cap[v] != 0 && use.on_side[v] == 0;
+        none = none && !(inside && track >= 0 && std::binary_search(boundary.begin(), boundary.end(), track));
+    });
+    return none;
+}
+
+} // namespace
+
+template<int D>
+bool tracks_are_sound(const HullView<D>& view, const PartStars<D>& stars, Communicator& ranks) {
+    const VertexUse use = use_of_vertices(stars);
+    const bool whole = tracks_are_whole(view, stars, use, ranks);
+    const std::vector<FacetOfCap<D>> facets = facets_of_caps(view, ranks);
+    const bool sound = whole && are_images(facets) && none_is_stray(view, stars, use, facets);
+    return ranks.min(sound ? 1 : 0) == 1;
+}
+
+template bool tracks_are_sound<2>(const HullView<2>&, const PartStars<2>&, Communicator&);
+template bool tracks_are_sound<3>(const HullView<3>&, const PartStars<3>&, Communicator&);
 template void check_tracks<2>(const HullView<2>&, BoundaryChanges<2>&, Findings&);
 template void check_tracks<3>(const HullView<3>&, BoundaryChanges<3>&, Findings&);
 template BoundaryFacets<2> check_cap_boundaries<2>(const HullView<2>&, Findings&);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -45,8 +46,9 @@ struct HullView {
     HullColumns<D> hull;
     AdjacencyView<D> adjacency;
     std::array<double, 2> time{};
-    RegionList region; ///< of each cell, as its vertices' times show it
+    RegionList region; ///< of each cell, as its vertices' times show it; in a part also of those outside
     IntegerList track; ///< of each vertex; empty when not given
+    std::size_t outside = 0; ///< in a part: cells of others beside it, with numbers after its own
 
     std::span<const Point<D + 1>> points() const { return hull.points; }
     std::span<const Simplex<D>> cells() const { return hull.cells; }
@@ -93,6 +95,16 @@ using BoundaryFacets = std::array<std::vector<BoundaryFacet<D>>, 2>;
 
 template<int D>
 class BoundaryChanges; // boundary_changes.h
+template<int D>
+struct PartStars; // part_stars.h
+class Communicator;
+
+/// Largest sum of normals, relative to the sum of their lengths, that rounding can cause.
+inline constexpr double closure_tolerance = 1e-10;
+
+/// Puts the measures of the regions, and what follows from them, into a report. (check.cpp)
+template<int D>
+void add_measures(const std::array<Measures<D>, 3>& regions, HullReport& report);
 
 // --- check_regions.cpp
 // -----------------------------------------------------------------------------------------------
@@ -102,6 +114,11 @@ class BoundaryChanges; // boundary_changes.h
 template<int D>
 bool check_regions(HullView<D>& view, Findings& findings);
 
+/// Finds the regions of the cells of one part of a hull, by the slab's times, and compares them with the
+/// claims. Tells which regions have a cell.
+template<int D>
+std::array<bool, 3> check_regions_of_part(HullView<D>& view, Findings& findings);
+
 /// Reports cap cells that do not face out of their cap.
 template<int D>
 void report_inverted(const HullView<D>& view, std::span<const Index> inverted, Findings& findings);
@@ -109,6 +126,14 @@ void report_inverted(const HullView<D>& view, std::span<const Index> inverted, F
 /// Checks that both caps have the same Euler characteristic, and a hull of dimension 2 twice that.
 template<int D>
 void check_euler(const HullView<D>& view, const ManifoldCounts& counts, Findings& findings);
+
+/// What the Euler characteristic of a cap follows from (D = 2): it has (3 cells + boundary) / 2 edges.
+struct CapCounts {
+    std::int64_t vertices = 0;
+    std::int64_t cells = 0;
+    std::int64_t boundary = 0;
+    std::int64_t euler() const { return vertices - (3 * cells + boundary) / 2 + cells; }
+};
 
 // --- check_cells.cpp
 // ------------------------------------------------------------------------------------------------
@@ -143,6 +168,11 @@ BoundaryFacets<D> check_cap_boundaries(const HullView<D>& view, Findings& findin
 template<int D>
 void check_boundary_image(const BoundaryFacets<D>& boundary, BoundaryChanges<D>& changes, Findings& findings);
 
+/// Whether check_tracks(), check_cap_boundaries() and check_boundary_image() find nothing in a hull without
+/// changes, of which `view` is one part. Collective.
+template<int D>
+bool tracks_are_sound(const HullView<D>& view, const PartStars<D>& stars, Communicator& ranks);
+
 // --- check_patches.cpp
 // -----------------------------------------------------------------------------------------------
 
@@ -154,15 +184,30 @@ std::vector<PatchCount> check_patches(const HullView<D>& view, Findings& finding
 template<int D>
 void check_patch_columns(const HullView<D>& view, Findings& findings);
 
+/// Whether check_patch_columns() finds nothing in a hull, of which `view` is one part. Collective.
+template<int D>
+bool patch_columns_agree(const HullView<D>& view, Communicator& ranks);
+
 // --- check_claims.cpp
 // ------------------------------------------------------------------------------------------------
 
 /// Reports claims of wrong length or width and removes them.
 template<int D>
 void check_column_lengths(HullColumns<D>& hull, Findings& findings);
-/// Checks layers against times. Returns their number.
+/// Number of cells that begin, or end, at each time.
+using TimeCounts = std::map<double, std::size_t>;
+/// Numbers of a layer's cells by first time and by last time.
+using LayerTimes = std::array<TimeCounts, 2>;
+using Layers = std::map<std::int64_t, LayerTimes>;
+
+/// Adds the numbers of one layer to those of the same elsewhere.
+void add_layer_times(LayerTimes& sum, const LayerTimes& more);
+
+/// Checks layers against times. Returns their number. `complete` adds the layers of the hull's other parts,
+/// where `view` is one of several.
 template<int D>
-std::size_t check_layers(const HullView<D>& view, Findings& findings);
+std::size_t check_layers(const HullView<D>& view, Findings& findings,
+                         const std::function<void(Layers& layers)>& complete = {});
 template<int D>
 void check_vertex_ids(const HullView<D>& view, Findings& findings);
 template<int D>

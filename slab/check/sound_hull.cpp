@@ -28,14 +28,19 @@ void require_clean(const HullReport& report, const std::string& name) {
         entities};
 }
 
+CheckOptions options_of_messages() {
+    CheckOptions options;
+    options.most_findings = 5; // the program's check lists more
+    return options;
+}
+
 } // namespace
 
 template<int D>
 SoundHull require_sound_hull(const Hull<D>& hull, const std::string& name, bool embedding,
                              StageClock& clock) {
     const HullColumns<D> columns = columns_of(hull);
-    CheckOptions options;
-    options.most_findings = 5; // in a message; the program's check lists more
+    const CheckOptions options = options_of_messages();
     SoundHull sound{check_hull<D>(columns, options), {}};
     clock.book("checking");
     require_clean(sound.report, name);
@@ -47,6 +52,30 @@ SoundHull require_sound_hull(const Hull<D>& hull, const std::string& name, bool 
     return sound;
 }
 
+template<int D>
+SoundHull require_sound_parts(const HullPart<D>& part, const HullOrder<D>& order, Communicator& ranks,
+                              const std::string& name, bool embedding, StageClock& clock) {
+    const CheckOptions options = options_of_messages();
+    SoundHull sound{check_parts<D>(part, order, ranks, options), {}};
+    clock.book("checking");
+    together(ranks, [&] { require_clean(sound.report, name); }); // the first rank's message has the findings
+    if (embedding) {
+        const Hull<D> hull = gather_hull(part, order, ranks);
+        together(ranks, [&] {
+            if (ranks.first()) {
+                sound.embedding = check_embedding<D>(columns_of(hull), options, sound.report);
+                require_clean(sound.report, name);
+            }
+        });
+        clock.book("embedding");
+    }
+    return sound;
+}
+
+template SoundHull require_sound_parts<2>(const HullPart<2>&, const HullOrder<2>&, Communicator&,
+                                          const std::string&, bool, StageClock&);
+template SoundHull require_sound_parts<3>(const HullPart<3>&, const HullOrder<3>&, Communicator&,
+                                          const std::string&, bool, StageClock&);
 template SoundHull require_sound_hull<2>(const Hull<2>&, const std::string&, bool, StageClock&);
 template SoundHull require_sound_hull<3>(const Hull<3>&, const std::string&, bool, StageClock&);
 

@@ -74,8 +74,9 @@ void March<D>::accept(Slab<D>&& slab) {
 
 template<int D>
 void March<D>::accept(const Slab<D>& slab) {
-    if (slab.hull.slab != state_.slab || slab.hull.time[0] != state_.time || slab.hull.vertex_ids.empty() ||
-        slab.hull.vertex_ids[0] != first_id_) {
+    const bool from_here =
+        slab.part || (!slab.hull.vertex_ids.empty() && slab.hull.vertex_ids[0] == first_id_);
+    if (slab.hull.slab != state_.slab || slab.hull.time[0] != state_.time || !from_here) {
         throw UsageError(
             fmt::format("slab {} from t = {} was not proposed by this march, which is at slab {} "
                         "and t = {}",

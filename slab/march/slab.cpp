@@ -5,6 +5,7 @@
 #include "slab/adapt/adapt_cap.h"
 #include "slab/march/cap_reuse.h"
 #include "slab/stitch/layered_side.h"
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/progress.h"
 #include "slabhull/geometry/measures.h"
@@ -266,6 +267,17 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
     }
 }
 
+/// Stitches this rank's part.
+template<int D>
+void stitch_in_ranks(CapToStitch<D>& initial, const Sweep<D>& sweep, SpatialMesh<D>&& terminating,
+                     const SlabSettings<D>& settings, IdCounter& side_ids, Slab<D>& slab) {
+    const auto number = static_cast<std::size_t>(settings.ranks->rank());
+    const auto parts = static_cast<std::size_t>(settings.ranks->size());
+    slab.part =
+        stitch_part<D>(initial, sweep, terminating, settings.side, side_ids, {number, parts}, slab.hull);
+    slab.cap = std::move(terminating);
+}
+
 /// Stitches a slab whose boundary keeps its connectivity.
 template<int D>
 void stitch_slab(CapToStitch<D>& initial, const Sweep<D>& sweep, NewCap<D>&& cap,
@@ -278,7 +290,11 @@ void stitch_slab(CapToStitch<D>& initial, const Sweep<D>& sweep, NewCap<D>&& cap
     if (slab.adapted) {
         track_adapted<D>(cap, ids, slab.adapted->log, terminating);
     }
-    slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
+    if (settings.ranks != nullptr) {
+        stitch_in_ranks<D>(initial, sweep, std::move(terminating), settings, side_ids, slab);
+    } else {
+        slab.hull = stitch<D>(initial, sweep, std::move(terminating), settings.side, side_ids);
+    }
     const auto facets = sweep.boundary.facets();
     slab.terminating_facets.assign(facets.begin(), facets.end());
 }

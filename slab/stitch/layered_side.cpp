@@ -3,7 +3,7 @@
 
 #include "slab/stitch/prism_choice.h"
 #include "slab/stitch/prism_graph.h"
-#include "slab/stitch/side_vertices.h"
+#include "slab/stitch/side_points.h"
 #include "slabhull/core/error.h"
 #include "slabhull/topology/adjacency.h"
 
@@ -13,18 +13,6 @@
 #include <utility>
 
 namespace slabhull {
-
-namespace {
-
-template<int D>
-Point<D + 1> in_space_time(const Point<D>& place, double time) {
-    Point<D + 1> point;
-    std::copy(place.begin(), place.end(), point.begin());
-    point[D] = time;
-    return point;
-}
-
-} // namespace
 
 template<int D>
 LayeredSide<D>::LayeredSide(std::size_t initial_points, const LayeredSweep<D>& sweep,
@@ -57,7 +45,7 @@ void LayeredSide<D>::enter_level(std::size_t level) {
             vertex[column] = on_terminating - v;
         } else {
             vertex[column] = checked_index(initial_points_ + points_.size(), "hull vertices");
-            points_.push_back(in_space_time<D>(sweep_.places[level][v], sweep_.times[level]));
+            points_.push_back(at_time<D>(sweep_.places[level][v], sweep_.times[level]));
             column_.push_back(static_cast<std::int64_t>(column));
         }
     }
@@ -88,42 +76,14 @@ struct LayeredSide<D>::LayerBuilder {
           graph{connect_prisms<D>(sweep.boundary, recipe)}, vertices{start.size(), sweep, graph, recipe},
           points(vertices.end() + start.size()) {
         for (Index v = 0; v < start.size(); ++v) {
-            points[v] = in_space_time<D>(start[v], begin);
-            points[vertices.end() + v] = in_space_time<D>(of.end[v], end);
+            points[v] = at_time<D>(start[v], begin);
+            points[vertices.end() + v] = at_time<D>(of.end[v], end);
         }
-        for (std::size_t f = 0; f < graph.facets(); ++f) {
-            place_centres(f);
+        const SidePoints<D> side{sweep, graph, vertices};
+        for (std::size_t v = vertices.begin(); v < vertices.end(); ++v) {
+            points[v] = side.of_vertex(v);
         }
-        choice = choose_templates<D>(options, graph, {sweep, vertices, points});
-    }
-
-    template<std::size_t N>
-    Point<D + 1> mean(const std::array<Index, N>& corners) const {
-        Point<D> sum{};
-        for (const std::size_t level : {0u, 1u}) {
-            for (const Index v : corners) {
-                for (std::size_t k = 0; k < D; ++k) {
-                    sum[k] += sweep.positions[level][v][k];
-                }
-            }
-        }
-        for (double& coordinate : sum) {
-            coordinate /= 2.0 * static_cast<double>(N);
-        }
-        return in_space_time<D>(sum, 0.5 * (sweep.times[0] + sweep.times[1]));
-    }
-
-    void place_centres(std::size_t f) {
-        const Facet<D>& corners = sweep.boundary.facets()[f];
-        if (vertices.has_prism_centres()) {
-            points[vertices.prism_centre(0, f)] = mean(corners);
-        }
-        for (std::size_t q = 0; q < PrismGraph<D>::quads_of_facet && vertices.has_face_centres(); ++q) {
-            if (graph.owns(f, q) && graph.is_centred(f, q)) {
-                const auto [j, k] = quad_corners<D>(q);
-                points[vertices.face_centre(0, graph.quad[f][q])] = mean(std::array{corners[j], corners[k]});
-            }
-        }
+        choice = choose_templates<D>(options, graph, sweep, side, {0, 1});
     }
 
     /// The pieces of the wall over ridge i of a facet, in local numbers.
@@ -292,11 +252,11 @@ Hull<D> LayeredSide<D>::stitch(CapToStitch<D> initial, CapToStitch<D> terminatin
     checked_index(hull.terminating_points_begin() + last.points.size(), "hull vertices");
     checked_index(hull.terminating_begin() + last.cells.size(), "hull cells");
     for (const Point<D>& place : first.points) {
-        hull.points.push_back(in_space_time<D>(place, hull.time[0]));
+        hull.points.push_back(at_time<D>(place, hull.time[0]));
     }
     hull.points.insert(hull.points.end(), points_.begin(), points_.end());
     for (const Point<D>& place : last.points) {
-        hull.points.push_back(in_space_time<D>(place, hull.time[1]));
+        hull.points.push_back(at_time<D>(place, hull.time[1]));
     }
     for (Simplex<D> cell : first.cells) {
         std::swap(cell[0], cell[1]); // the cap faces back in time

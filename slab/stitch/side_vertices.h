@@ -8,6 +8,9 @@
 
 namespace slabhull {
 
+/// Kinds of vertices that the side adds.
+enum class SideVertex { on_level, face_centre, prism_centre };
+
 /// Numbers of the hull's vertices: those of the initial cap; then, layer by layer, the vertices of the level
 /// below the layer (except the first level), the centres of quadrilaterals, and those of prisms; then the
 /// terminating cap's, the swept ones first.
@@ -35,6 +38,25 @@ public:
     std::size_t face_centre(std::size_t layer, Index quad) const { return layer_begin(layer) + quad; }
     std::size_t prism_centre(std::size_t layer, std::size_t facet) const {
         return layer_begin(layer) + face_centres_ + facet;
+    }
+    /// What a vertex is that is in neither cap: on level, or centre in layer, `layer`; its number among
+    /// these.
+    struct Place {
+        std::size_t layer;
+        SideVertex kind;
+        std::size_t number;
+    };
+    Place place_of(std::size_t vertex) const {
+        const std::size_t centres = face_centres_ + prism_centres_;
+        const std::size_t shifted = vertex - begin_ + boundary_; // as if level 0 were the side's, too
+        const std::size_t layer = shifted / (centres + boundary_);
+        const std::size_t number = shifted % (centres + boundary_);
+        if (number < boundary_) {
+            return {layer, SideVertex::on_level, number};
+        }
+        return number < boundary_ + face_centres_
+                   ? Place{layer, SideVertex::face_centre, number - boundary_}
+                   : Place{layer, SideVertex::prism_centre, number - boundary_ - face_centres_};
     }
     bool has_face_centres() const { return face_centres_ > 0; }
     bool has_prism_centres() const { return prism_centres_ > 0; }

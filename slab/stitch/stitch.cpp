@@ -4,7 +4,7 @@
 #include "slab/stitch/cap_boundary.h"
 #include "slab/stitch/prism_choice.h"
 #include "slab/stitch/prism_graph.h"
-#include "slab/stitch/side_vertices.h"
+#include "slab/stitch/side_points.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
@@ -30,167 +30,180 @@ void for_each_index(std::size_t count, std::size_t grain, const Body& body) {
 }
 
 template<int D>
-Point<D + 1> at_time(const Point<D>& x, double t) {
-    Point<D + 1> point;
-    std::copy(x.begin(), x.end(), point.begin());
-    point[D] = t;
-    return point;
-}
-
-template<int D>
 class Stitcher {
 public:
     Stitcher(CapToStitch<D>& initial, const Sweep<D>& sweep, CapToStitch<D>& terminating,
              const SideOptions& options, IdCounter& ids)
-        : initial_{initial}, sweep_{sweep}, terminating_{terminating}, options_{options}, ids_{ids},
-          recipe_{recipe_of(options.split)}, templates_{templates_of<D>(options.split)},
-          graph_{connect_prisms<D>(sweep.boundary, recipe_)}, vertices_{initial.mesh().points.size(), sweep,
-                                                                        graph_, recipe_} {}
+        : initial_{initial}, sweep_{sweep},
+          terminating_{terminating}, options_{options}, ids_{ids}, recipe_{recipe_of(options.split)},
+          templates_{templates_of<D>(options.split)}, graph_{connect_prisms<D>(sweep.boundary, recipe_)},
+          vertices_{initial.mesh().points.size(), sweep, graph_, recipe_}, points_{sweep, graph_, vertices_} {
+    }
 
     /// Places the caps first: the hull takes memory only as it is written, and that of the caps may be
     /// released.
-    Hull<D> run() {
-        give_back_freed_memory(); // memory used for meshing and sweep
-        describe();
-        const Array<CellFacet> initial_boundary = boundary_of_cap(initial_.mesh());
-        const Array<CellFacet> terminating_boundary = boundary_of_cap(terminating_.mesh());
-        name_vertices();
-        place_cap(initial_, 0, 0, 0, sweep_.times.front());
-        place_cap(terminating_, hull_.terminating_begin(), hull_.terminating_points_begin(),
-                  static_cast<Index>(vertices_.end()), sweep_.times.back());
-        place_side_vertices();
+    Hull<D> whole() {
+        begin(0, 1);
+        const auto boundary = boundary_of_caps();
+        Hull<D> hull;
+        hull.vertex_ids = std::move(vertex_ids_);
+        hull.track_ids = std::move(track_ids_);
+        hull.points.resize(hull_points_);
+        place_points(initial_, hull.points.data(), sweep_.times.front());
+        place_cells(initial_, 0, 0);
+        place_points(terminating_, hull.points.data() + vertices_.end(), sweep_.times.back());
+        place_cells(terminating_, order_.terminating_begin(), static_cast<Index>(vertices_.end()));
+        for_each_index(vertices_.end() - vertices_.begin(), items_per_step, [&](std::size_t k) {
+            hull.points[vertices_.begin() + k] = points_.of_vertex(vertices_.begin() + k);
+        });
         place_side_cells();
-        join_cap(initial_boundary, 0, 0, Template::bottom);
-        join_cap(terminating_boundary, hull_.terminating_begin(), hull_.layers - 1, Template::top);
-        return std::move(hull_);
+        join_caps(boundary);
+        static_cast<HullOrder<D>&>(hull) = std::move(order_);
+        hull.cells = std::move(cells_);
+        hull.neighbors = std::move(neighbors_);
+        return hull;
+    }
+
+    HullPart<D> part(std::size_t number, std::size_t parts, HullOrder<D>& order) {
+        begin(number, parts);
+        const auto boundary = boundary_of_caps();
+        place_cells(initial_, 0, 0);
+        place_cells(terminating_, order_.terminating_begin(), static_cast<Index>(vertices_.end()));
+        place_side_cells();
+        join_caps(boundary);
+        HullPart<D> part;
+        part.hull_cells = hull_cells_;
+        part.range = range_;
+        part.cells = std::move(cells_);
+        part.neighbors = std::move(neighbors_);
+        number_points(part);
+        number_neighbors(part);
+        order = std::move(order_);
+        return part;
     }
 
 private:
     using Template = PrismTemplate<D>;
 
+    /// What is known before anything is placed, and room for the cells of one of several parts.
+    void begin(std::size_t part, std::size_t parts) {
+        give_back_freed_memory(); // memory used for meshing and sweep
+        describe();
+        if (parts > hull_cells_) {
+            throw UsageError{fmt::format("{} parts cannot be made of {} cells", parts, hull_cells_)};
+        }
+        range_ = range_of_part(hull_cells_, part, parts);
+        cells_.resize(range_.count);
+        neighbors_.resize(range_.count);
+        name_vertices();
+    }
+
     void describe() {
-        hull_.initial_points = initial_.mesh().points.size();
-        hull_.side_points = vertices_.end() - vertices_.begin();
-        hull_.initial_cells = initial_.mesh().cells.size();
-        hull_.layers = sweep_.layers();
-        hull_.cells_per_prism = static_cast<std::size_t>(simplices_per_prism(options_.split));
-        hull_.side_cells = hull_.layers * graph_.facets() * hull_.cells_per_prism;
-        hull_.facet_patch.assign(sweep_.boundary.patch().begin(), sweep_.boundary.patch().end());
-        hull_.patches = sweep_.boundary.patches();
-        hull_.time = {sweep_.times.front(), sweep_.times.back()};
-        const std::size_t points = vertices_.end() + terminating_.mesh().points.size();
-        const std::size_t cells = hull_.terminating_begin() + terminating_.mesh().cells.size();
-        checked_index(points, "hull vertices");
-        checked_index(cells, "hull cells");
-        hull_.points.resize(points);
-        hull_.cells.resize(cells);
-        hull_.neighbors.resize(cells);
+        order_.initial_points = initial_.mesh().points.size();
+        order_.side_points = vertices_.end() - vertices_.begin();
+        order_.initial_cells = initial_.mesh().cells.size();
+        order_.layers = sweep_.layers();
+        order_.cells_per_prism = static_cast<std::size_t>(simplices_per_prism(options_.split));
+        order_.side_cells = order_.layers * graph_.facets() * order_.cells_per_prism;
+        order_.facet_patch.assign(sweep_.boundary.patch().begin(), sweep_.boundary.patch().end());
+        order_.patches = sweep_.boundary.patches();
+        order_.time = {sweep_.times.front(), sweep_.times.back()};
+        hull_points_ = vertices_.end() + terminating_.mesh().points.size();
+        hull_cells_ = order_.terminating_begin() + terminating_.mesh().cells.size();
+        checked_index(hull_points_, "hull vertices");
+        checked_index(hull_cells_, "hull cells");
     }
 
     /// Ids of the side are new; of its vertices those on levels have tracks.
     void name_vertices() {
         const SpatialMesh<D>& initial = initial_.mesh();
-        hull_.vertex_ids.append(initial.vertex_ids);
-        hull_.track_ids.append(initial_.tracks());
-        hull_.vertex_ids.append_run(ids_.take(hull_.side_points), hull_.side_points, 1);
+        vertex_ids_.append(initial.vertex_ids);
+        track_ids_.append(initial_.tracks());
+        vertex_ids_.append_run(ids_.take(order_.side_points), order_.side_points, 1);
         const std::size_t centres =
-            (hull_.side_points - (sweep_.layers() - 1) * sweep_.boundary.tracks().size()) / sweep_.layers();
+            (order_.side_points - (sweep_.layers() - 1) * sweep_.boundary.tracks().size()) / sweep_.layers();
         for (std::size_t layer = 0; layer < sweep_.layers(); ++layer) {
             if (layer > 0) {
-                hull_.track_ids.append(sweep_.boundary.tracks());
+                track_ids_.append(sweep_.boundary.tracks());
             }
-            hull_.track_ids.append_run(no_track, centres, 0);
+            track_ids_.append_run(no_track, centres, 0);
         }
-        hull_.vertex_ids.append(terminating_.mesh().vertex_ids);
-        hull_.track_ids.append(terminating_.mesh().track_ids);
+        vertex_ids_.append(terminating_.mesh().vertex_ids);
+        track_ids_.append(terminating_.mesh().track_ids);
     }
 
-    void place_cap(CapToStitch<D>& cap, std::size_t first_cell, std::size_t first_point, Index first_vertex,
-                   double t) {
+    // --- cells, in the numbers of the whole hull
+
+    /// The cells of a range that are here, too.
+    HullRange held(std::size_t first, std::size_t count) const {
+        const std::size_t begin = std::clamp(first, range_.first, range_.first + range_.count);
+        const std::size_t end = std::clamp(first + count, range_.first, range_.first + range_.count);
+        return {begin, end - begin};
+    }
+    bool holds(std::size_t cell) const { return cell - range_.first < range_.count; }
+
+    static void place_points(CapToStitch<D>& cap, Point<D + 1>* to, double t) {
         cap.release(&SpatialMesh<D>::vertex_ids);
         cap.release(&SpatialMesh<D>::track_ids);
-        for_each_index(cap.mesh().points.size(), items_per_step, [&](std::size_t v) {
-            hull_.points[first_point + v] = at_time<D>(cap.mesh().points[v], t);
-        });
+        for_each_index(cap.mesh().points.size(), items_per_step,
+                       [&](std::size_t v) { to[v] = at_time<D>(cap.mesh().points[v], t); });
         cap.release(&SpatialMesh<D>::points);
+    }
+
+    void place_cells(CapToStitch<D>& cap, std::size_t first_cell, Index first_vertex) {
         const bool looks_back = first_cell == 0; // the cap faces back in time: cells are reversed
-        place_rows(cap.mesh().cells, hull_.cells, first_cell, first_vertex, looks_back);
+        place_rows(cap.mesh().cells, cells_, first_cell, first_vertex, looks_back);
         cap.release(&SpatialMesh<D>::cells);
         // Across boundary facets the neighbours stay unset: see join_cap().
-        place_rows(cap.mesh().neighbors, hull_.neighbors, first_cell, static_cast<Index>(first_cell),
-                   looks_back);
+        place_rows(cap.mesh().neighbors, neighbors_, first_cell, static_cast<Index>(first_cell), looks_back);
         cap.release(&SpatialMesh<D>::neighbors);
     }
 
-    /// Copies rows of indices to the hull's from row `first` on.
+    /// Copies rows of indices to those of the hull's cells from `first` on.
     template<class Row>
-    static void place_rows(const Array<Row>& rows, Array<Row>& hull, std::size_t first, Index shift,
-                           bool turned) {
-        for_each_index(rows.size(), items_per_step, [&](std::size_t k) {
-            Row row = rows[k];
+    void place_rows(const Array<Row>& rows, Array<Row>& hull, std::size_t first, Index shift, bool turned) {
+        const HullRange here = held(first, rows.size());
+        for_each_index(here.count, items_per_step, [&](std::size_t k) {
+            Row row = rows[here.first - first + k];
             for (Index& entry : row) {
                 entry += shift;
             }
             if (turned) {
                 std::swap(row[0], row[1]);
             }
-            hull[first + k] = row;
+            hull[here.first - range_.first + k] = row;
         });
-    }
-
-    void place_side_vertices() {
-        for (std::size_t level = 1; level < sweep_.layers(); ++level) {
-            for_each_index(sweep_.boundary.vertex_count(), items_per_step, [&](std::size_t v) {
-                hull_.points[vertices_.on_level(level, static_cast<Index>(v))] =
-                    at_time<D>(sweep_.positions[level][v], sweep_.times[level]);
-            });
-        }
-        for (std::size_t layer = 0; layer < sweep_.layers(); ++layer) {
-            place_centres(layer);
-        }
-    }
-
-    void place_centres(std::size_t layer) {
-        if (!vertices_.has_face_centres() && !vertices_.has_prism_centres()) {
-            return;
-        }
-        for_each_index(graph_.facets(), prisms_per_piece, [&](std::size_t facet) {
-            const auto& corners = sweep_.boundary.facets()[facet];
-            if (vertices_.has_prism_centres()) {
-                hull_.points[vertices_.prism_centre(layer, facet)] = mean_of_columns(layer, corners);
-            }
-            for (std::size_t q = 0; q < PrismGraph<D>::quads_of_facet && vertices_.has_face_centres(); ++q) {
-                if (graph_.owns(facet, q) && graph_.is_centred(facet, q)) {
-                    const auto [j, k] = quad_corners<D>(q);
-                    hull_.points[vertices_.face_centre(layer, graph_.quad[facet][q])] =
-                        mean_of_columns(layer, std::array{corners[j], corners[k]});
-                }
-            }
-        });
-    }
-
-    /// Mean of the points that swept vertices have below and above a layer.
-    template<std::size_t N>
-    Point<D + 1> mean_of_columns(std::size_t layer, const std::array<Index, N>& vertices) const {
-        Point<D> sum{};
-        for (const std::size_t level : {layer, layer + 1}) {
-            for (const Index v : vertices) {
-                for (std::size_t k = 0; k < D; ++k) {
-                    sum[k] += sweep_.positions[level][v][k];
-                }
-            }
-        }
-        for (double& coordinate : sum) {
-            coordinate /= 2.0 * static_cast<double>(N);
-        }
-        return at_time<D>(sum, 0.5 * (sweep_.times[layer] + sweep_.times[layer + 1]));
     }
 
     void place_side_cells() {
-        choice_ = choose_templates<D>(options_, graph_, {sweep_, vertices_, hull_.points});
-        for_each_index(hull_.layers * graph_.facets(), prisms_per_piece, [this](std::size_t prism) {
-            place_prism(prism / graph_.facets(), prism % graph_.facets());
+        const HullRange here = held(order_.initial_cells, order_.side_cells);
+        std::size_t first = 0; // of the prisms with cells here
+        std::size_t end = 0;
+        if (here.count > 0) {
+            first = (here.first - order_.initial_cells) / order_.cells_per_prism;
+            end = (here.first + here.count - order_.initial_cells - 1) / order_.cells_per_prism + 1;
+        }
+        choice_ = choose_templates<D>(options_, graph_, sweep_, points_, layers_to_choose(first, end));
+        for_each_index(end - first, prisms_per_piece, [&](std::size_t k) {
+            place_prism((first + k) / graph_.facets(), (first + k) % graph_.facets());
         });
+    }
+
+    /// The layers whose diagonals matter here: those of prisms [first, end) and of the prisms that join the
+    /// caps' cells, and the layers beside them.
+    LayerRange layers_to_choose(std::size_t first, std::size_t end) const {
+        LayerRange layers{order_.layers, 0};
+        if (first < end) {
+            layers = {first / graph_.facets(), (end - 1) / graph_.facets() + 1};
+        }
+        if (held(0, order_.initial_cells).count > 0) {
+            layers = {0, std::max<std::size_t>(layers.end, 1)};
+        }
+        if (held(order_.terminating_begin(), hull_cells_ - order_.terminating_begin()).count > 0) {
+            layers = {std::min(layers.first, order_.layers - 1), order_.layers};
+        }
+        return {layers.first - std::min<std::size_t>(layers.first, 1),
+                std::min(layers.end + 1, order_.layers)};
     }
 
     void place_prism(std::size_t layer, std::size_t facet) {
@@ -199,9 +212,13 @@ private:
         const auto reached = reached_from(layer, facet);
         const std::size_t first = first_cell(layer, facet);
         for (std::size_t c = 0; c < filling.cells.size(); ++c) {
+            if (!holds(first + c)) {
+                continue; // a range may begin or end within a prism
+            }
+            const std::size_t row = first + c - range_.first;
             for (std::size_t i = 0; i <= D; ++i) {
-                hull_.cells[first + c][i] = points[filling.cells[c][i]];
-                hull_.neighbors[first + c][i] = reached[filling.across[c][i]];
+                cells_[row][i] = points[filling.cells[c][i]];
+                neighbors_[row][i] = reached[filling.across[c][i]];
             }
         }
     }
@@ -211,7 +228,7 @@ private:
     }
 
     std::size_t first_cell(std::size_t layer, std::size_t facet) const {
-        return hull_.initial_cells + (layer * graph_.facets() + facet) * hull_.cells_per_prism;
+        return order_.initial_cells + (layer * graph_.facets() + facet) * order_.cells_per_prism;
     }
 
     Index cell_in_slot(std::size_t layer, std::size_t facet, std::uint8_t slot) const {
@@ -230,7 +247,7 @@ private:
         Index* const outside = cell.data() + Template::outside;
         outside[Template::bottom] = layer == 0 ? no_index : cell_in_slot(layer - 1, facet, Template::top);
         outside[Template::top] =
-            layer + 1 == hull_.layers ? no_index : cell_in_slot(layer + 1, facet, Template::bottom);
+            layer + 1 == order_.layers ? no_index : cell_in_slot(layer + 1, facet, Template::bottom);
         for (std::size_t face = 0; face < D; ++face) {
             const auto [entry, turned] = graph_.twin[facet][face];
             const Index across = graph_.across(facet, face);
@@ -245,21 +262,35 @@ private:
         return cell;
     }
 
+    /// The boundary facets of both caps.
+    std::array<Array<CellFacet>, 2> boundary_of_caps() const {
+        return {boundary_of_cap(initial_.mesh()), boundary_of_cap(terminating_.mesh())};
+    }
+
     Array<CellFacet> boundary_of_cap(const SpatialMesh<D>& cap) const {
         Array<CellFacet> boundary = find_boundary_facets(cap);
         if (boundary.size() != graph_.facets()) {
             throw GeometryError(
                 fmt::format("the caps and the side of the slab from t = {} to {} do not close: a cap has {} "
                             "boundary facets, the side {}",
-                            hull_.time[0], hull_.time[1], boundary.size(), graph_.facets()));
+                            order_.time[0], order_.time[1], boundary.size(), graph_.facets()));
         }
         return boundary;
+    }
+
+    void join_caps(const std::array<Array<CellFacet>, 2>& boundary) {
+        join_cap(boundary[0], 0, 0, Template::bottom);
+        join_cap(boundary[1], order_.terminating_begin(), order_.layers - 1, Template::top);
     }
 
     /// Joins boundary facet f of a cap to the prism over facet f: the cap's boundary facets are the swept
     /// ones, in order.
     void join_cap(const Array<CellFacet>& boundary, std::size_t cap_begin, std::size_t layer,
                   std::uint8_t slot) {
+        if (held(cap_begin, cap_begin == 0 ? order_.initial_cells : hull_cells_ - cap_begin).count == 0 &&
+            held(first_cell(layer, 0), graph_.facets() * order_.cells_per_prism).count == 0) {
+            return; // no diagonals are known there, nor are they needed
+        }
         for (std::size_t f = 0; f < boundary.size(); ++f) {
             const auto [cap_cell, cap_place] = boundary[f];
             const Index side_cell = cell_in_slot(layer, f, slot);
@@ -267,10 +298,84 @@ private:
             const auto side_place =
                 std::find(across.begin(), across.end(), Template::outside + slot) - across.begin();
             const std::size_t turned = cap_begin == 0 && cap_place < 2 ? 1u - cap_place : cap_place;
-            hull_.neighbors[cap_begin + cap_cell][turned] = side_cell;
-            hull_.neighbors[side_cell][static_cast<std::size_t>(side_place)] =
-                static_cast<Index>(cap_begin + cap_cell);
+            set_neighbor(cap_begin + cap_cell, turned, side_cell);
+            set_neighbor(side_cell, static_cast<std::size_t>(side_place),
+                         static_cast<Index>(cap_begin + cap_cell));
         }
+    }
+
+    void set_neighbor(std::size_t cell, std::size_t place, Index neighbor) {
+        if (holds(cell)) {
+            neighbors_[cell - range_.first][place] = neighbor;
+        }
+    }
+
+    // --- a part's own numbers
+
+    Point<D + 1> point_of(std::size_t vertex) const {
+        if (vertex < vertices_.begin()) {
+            return at_time<D>(initial_.mesh().points[vertex], sweep_.times.front());
+        }
+        return vertex < vertices_.end()
+                   ? points_.of_vertex(vertex)
+                   : at_time<D>(terminating_.mesh().points[vertex - vertices_.end()], sweep_.times.back());
+    }
+
+    /// Finds the points that the part's cells use, and numbers them within the part.
+    void number_points(HullPart<D>& part) const {
+        auto used = std::make_shared<PointSet>(hull_points_);
+        for (const Simplex<D>& cell : part.cells) {
+            for (const Index v : cell) {
+                used->insert(v);
+            }
+        }
+        used->count();
+        for_each_index(part.cells.size(), items_per_step, [&](std::size_t c) {
+            for (Index& v : part.cells[c]) {
+                v = static_cast<Index>(used->rank(v));
+            }
+        });
+        part.points.resize(used->size());
+        Array<std::int64_t> ids(used->size());
+        Array<std::int64_t> tracks(used->size());
+        parallel_for(used->size(), items_per_step, [&](std::size_t begin, std::size_t end) {
+            std::size_t vertex = used->member(begin);
+            for (std::size_t k = begin; k < end; ++k) {
+                part.points[k] = point_of(vertex);
+                ids[k] = vertex_ids_[vertex];
+                tracks[k] = track_ids_[vertex];
+                vertex = k + 1 < end ? used->next(vertex) : vertex;
+            }
+        });
+        part.vertex_ids.append(ids);
+        part.track_ids.append(tracks);
+        part.points_used = std::move(used);
+    }
+
+    /// Lists the cells beside the part and numbers neighbours within it.
+    void number_neighbors(HullPart<D>& part) const {
+        for (const Neighbors<D>& row : part.neighbors) {
+            for (const Index neighbor : row) {
+                if (!holds(neighbor)) {
+                    part.outside.push_back(neighbor);
+                }
+            }
+        }
+        std::sort(part.outside.begin(), part.outside.end());
+        part.outside.erase(std::unique(part.outside.begin(), part.outside.end()), part.outside.end());
+        checked_index(part.cells.size() + part.outside.size(), "cells of a part");
+        for_each_index(part.neighbors.size(), items_per_step, [&](std::size_t c) {
+            for (Index& neighbor : part.neighbors[c]) {
+                if (holds(neighbor)) {
+                    neighbor -= static_cast<Index>(range_.first);
+                } else {
+                    const auto place =
+                        std::lower_bound(part.outside.begin(), part.outside.end(), std::uint64_t{neighbor});
+                    neighbor = static_cast<Index>(part.cells.size()) +
+                               static_cast<Index>(place - part.outside.begin());
+                }
+            }
+        });
     }
 
     CapToStitch<D>& initial_;
@@ -282,8 +387,16 @@ private:
     std::span<const Template> templates_;
     PrismGraph<D> graph_;
     SideVertices<D> vertices_;
+    SidePoints<D> points_;
     PrismChoice choice_;
-    Hull<D> hull_;
+    HullOrder<D> order_;
+    std::size_t hull_points_ = 0;
+    std::size_t hull_cells_ = 0;
+    IntegerList vertex_ids_; ///< of the whole hull, in runs
+    IntegerList track_ids_;
+    HullRange range_; ///< of the cells that are made
+    Array<Simplex<D>> cells_;
+    Array<Neighbors<D>> neighbors_;
 };
 
 } // namespace
@@ -355,7 +468,20 @@ std::size_t side_vertex_count(const Sweep<D>& sweep, Split split) {
 template<int D>
 Hull<D> stitch(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
                const SideOptions& options, IdCounter& ids) {
-    return Stitcher<D>{initial, sweep, terminating, options, ids}.run();
+    return Stitcher<D>{initial, sweep, terminating, options, ids}.whole();
+}
+
+HullRange range_of_part(std::size_t cells, std::size_t part, std::size_t parts) {
+    const std::size_t length = cells / parts;
+    const std::size_t longer = cells % parts; // the first ones, by one
+    return {length * part + std::min(part, longer), length + (part < longer ? 1 : 0)};
+}
+
+template<int D>
+HullPart<D> stitch_part(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
+                        const SideOptions& options, IdCounter& ids, const PartNumber& part,
+                        HullOrder<D>& order) {
+    return Stitcher<D>{initial, sweep, terminating, options, ids}.part(part.number, part.parts, order);
 }
 
 template SpatialMesh<2> terminating_cap<2>(const Boundary<2>&, CapMesh<2>&&, IdCounter&);
@@ -364,6 +490,10 @@ template std::size_t side_vertex_count<2>(const Sweep<2>&, Split);
 template std::size_t side_vertex_count<3>(const Sweep<3>&, Split);
 template Hull<2> stitch<2>(CapToStitch<2>, const Sweep<2>&, CapToStitch<2>, const SideOptions&, IdCounter&);
 template Hull<3> stitch<3>(CapToStitch<3>, const Sweep<3>&, CapToStitch<3>, const SideOptions&, IdCounter&);
+template HullPart<2> stitch_part<2>(CapToStitch<2>, const Sweep<2>&, CapToStitch<2>, const SideOptions&,
+                                    IdCounter&, const PartNumber&, HullOrder<2>&);
+template HullPart<3> stitch_part<3>(CapToStitch<3>, const Sweep<3>&, CapToStitch<3>, const SideOptions&,
+                                    IdCounter&, const PartNumber&, HullOrder<3>&);
 template SpatialMesh<2> terminating_cap_of<2>(const Hull<2>&, Array<Facet<2>>);
 template SpatialMesh<3> terminating_cap_of<3>(const Hull<3>&, Array<Facet<3>>);
 

@@ -98,6 +98,8 @@ NEEDS = {  # what blocks may need: how to find it
     "cmake": lambda: shutil.which("cmake") is not None and os.path.isdir(os.environ.get("SLABHULL_PREFIX", "")),
     "heat": lambda: os.path.exists(os.environ.get("SLABHULL_HEAT", "")),
     "the Python module": lambda: has_module("slabhull"),
+    "mpirun": lambda: shutil.which("mpirun") is not None and "/nowhere.toml" in subprocess.run(
+        ["mpirun", "-n", "1", os.environ["SLABHULL_PROGRAM"], "build", "/nowhere.toml"], capture_output=True, text=True).stderr,
     "the page of view": lambda: "(not in this build)" not in subprocess.run(
         [os.environ["SLABHULL_PROGRAM"], "view", "--help"], capture_output=True, text=True).stdout,
 }

@@ -4,12 +4,16 @@
 
 #include "slab/require_found.h"
 #include "slab/specimens.h"
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/slab/check_parts.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <set>
 
 using namespace slabhull;
@@ -51,6 +55,117 @@ Array<Neighbors<D>> neighbor_table(const Claims<D>& claims) {
     return table;
 }
 
+/// Cells [begin, end) of a hull as a rank has them.
+template<int D>
+HullPart<D> part_of(const Claims<D>& claims, const HullRange& range) {
+    HullPart<D> part;
+    part.hull_cells = claims.cells.size();
+    part.range = range;
+    auto used = std::make_shared<PointSet>(claims.points.size());
+    for (std::size_t c = range.first; c < range.first + range.count; ++c) {
+        part.cells.push_back(claims.cells[c]);
+        for (std::size_t i = 0; i <= D; ++i) {
+            used->insert(claims.cells[c][i]);
+            const auto n = static_cast<std::uint64_t>(claims.neighbors[c * (D + 1) + i]);
+            if (n - range.first >= range.count) {
+                part.outside.push_back(n);
+            }
+        }
+    }
+    std::sort(part.outside.begin(), part.outside.end());
+    part.outside.erase(std::unique(part.outside.begin(), part.outside.end()), part.outside.end());
+    used->count();
+    for (std::size_t c = 0; c < range.count; ++c) {
+        Neighbors<D>& row = part.neighbors.emplace_back();
+        for (std::size_t i = 0; i <= D; ++i) {
+            part.cells[c][i] = static_cast<Index>(used->rank(part.cells[c][i]));
+            const auto n = static_cast<std::uint64_t>(claims.neighbors[(range.first + c) * (D + 1) + i]);
+            const auto place = std::lower_bound(part.outside.begin(), part.outside.end(), n);
+            row[i] = static_cast<Index>(n - range.first < range.count
+                                            ? n - range.first
+                                            : range.count +
+                                                  static_cast<std::size_t>(place - part.outside.begin()));
+        }
+    }
+    for (std::size_t v = 0; v < claims.points.size(); ++v) {
+        if (used->contains(v)) {
+            part.points.push_back(claims.points[v]);
+            part.vertex_ids.push_back(claims.vertex_id[v]);
+            part.track_ids.push_back(claims.track_id[v]);
+        }
+    }
+    part.points_used = std::move(used);
+    return part;
+}
+
+/// Whether parts can say what a hull says: an index out of range, or no neighbour, they cannot.
+template<int D>
+bool can_be_divided(const Claims<D>& claims) {
+    const HullColumns<D> columns = claims.columns();
+    const auto cells = static_cast<std::int64_t>(claims.cells.size());
+    return cells >= 3 && columns.neighbors.given() && claims.vertex_id.size() == claims.points.size() &&
+           claims.track_id.size() == claims.points.size() &&
+           claims.neighbors.size() == claims.cells.size() * (D + 1) &&
+           std::all_of(claims.neighbors.begin(), claims.neighbors.end(),
+                       [&](std::int64_t n) { return n >= 0 && n < cells; }) &&
+           std::all_of(claims.cells.begin(), claims.cells.end(), [&](const Simplex<D>& cell) {
+               return std::all_of(cell.begin(), cell.end(),
+                                  [&](Index v) { return v < claims.points.size(); });
+           });
+}
+
+/// A column's rows of a range.
+Column<std::int64_t> rows_within(const Column<std::int64_t>& column, const HullRange& range) {
+    if (!column.given()) {
+        return {};
+    }
+    return {range.count, 1, [column, range](std::size_t begin, std::size_t end, std::int64_t* out) {
+                column.fill(range.first + begin, range.first + end, out);
+            }};
+}
+
+/// Ranks must find a hull sound exactly if the check of the whole does, and then with the same figures.
+template<int D>
+void require_same_in_ranks(const Claims<D>& claims, const HullReport& whole) {
+    static int cases = 0;
+    if (!can_be_divided(claims) ||
+        whole.count(Defect::wrong_vertex_cell) + whole.count(Defect::column_length) > 0) {
+        return;
+    }
+    const int ranks = 2 + cases++ % 3; // what is found must not depend on where parts begin
+    std::vector<std::optional<HullReport>> found(static_cast<std::size_t>(ranks));
+    run_team(ranks, [&](Communicator& team) {
+        const auto r = static_cast<std::size_t>(team.rank());
+        const HullRange range = range_of_part(claims.cells.size(), r, found.size());
+        const HullPart<D> part = part_of(claims, range);
+        HullColumns<D> columns = claims.columns();
+        columns.region = rows_within(columns.region, range);
+        columns.patch = rows_within(columns.patch, range);
+        columns.layer = rows_within(columns.layer, range);
+        found[r] = confirm_parts<D>(part, columns, team);
+    });
+    INFO(all_texts(whole) << "in " << ranks << " ranks");
+    for (const std::optional<HullReport>& report : found) {
+        REQUIRE(report.has_value() == whole.clean());
+        if (report) {
+            REQUIRE(report->counts.vertices == whole.counts.vertices);
+            REQUIRE(report->counts.edges == whole.counts.edges);
+            REQUIRE(report->counts.facets == whole.counts.facets);
+            REQUIRE(report->counts.components == whole.counts.components);
+            REQUIRE(report->counts.euler == whole.counts.euler);
+            REQUIRE(report->measure == whole.measure);
+            REQUIRE(report->measure_by_region == whole.measure_by_region);
+            REQUIRE(report->enclosed == whole.enclosed);
+            REQUIRE(report->closure == whole.closure);
+            REQUIRE(report->angles.smallest == whole.angles.smallest);
+            REQUIRE(report->cells_by_region == whole.cells_by_region);
+            REQUIRE(report->cells_by_patch.size() == whole.cells_by_patch.size());
+            REQUIRE(report->layers == whole.layers);
+            REQUIRE(report->time == whole.time);
+        }
+    }
+}
+
 /// The check must find the same whether it can compare with a table of neighbours or has to make one.
 template<int D>
 HullReport check(const Claims<D>& claims) {
@@ -62,6 +177,7 @@ HullReport check(const Claims<D>& claims) {
     REQUIRE(all_texts(report) == all_texts(again));
     REQUIRE(report.found == again.found);
     REQUIRE(report.counts.components == again.counts.components);
+    require_same_in_ranks(claims, report);
     return report;
 }
 

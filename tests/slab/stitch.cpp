@@ -54,6 +54,28 @@ Hull<D> stitched(const SlabParts<D>& parts, const SideOptions& side) {
     return stitch<D>(parts.initial, parts.sweep, parts.terminating, side, ids);
 }
 
+/// Whether all that a part says is what the whole hull says there.
+template<int D>
+bool part_is_of(const HullPart<D>& part, const Hull<D>& whole) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 0; k < part.points.size(); ++k) {
+        numbers.push_back(part.points_used->member(k));
+    }
+    bool same = part.hull_cells == whole.cells.size() && part.hull_points() == whole.points.size();
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        same = same && part.points[k] == whole.points[numbers[k]] &&
+               part.vertex_ids[k] == whole.vertex_ids[numbers[k]] &&
+               part.track_ids[k] == whole.track_ids[numbers[k]];
+    }
+    for (std::size_t c = 0; c < part.cells.size(); ++c) {
+        for (std::size_t i = 0; i <= D; ++i) {
+            same = same && numbers[part.cells[c][i]] == whole.cells[part.range.first + c][i] &&
+                   part.in_hull(part.neighbors[c][i]) == whole.neighbors[part.range.first + c][i];
+        }
+    }
+    return same;
+}
+
 template<int D>
 void check_sound(const Hull<D>& hull, const std::vector<std::size_t>& betti) {
     CheckOptions options;
@@ -160,6 +182,32 @@ TEMPLATE_TEST_CASE_SIG("stitched hulls pass the whole check", "[stitch]", ((int 
         check(specimens::box_with_body<D>(), expected(1));
         check(specimens::box_with_two_bodies<D>(), expected(2));
         check(specimens::box_with_channel<D>(), expected(1)); // the double of a solid torus is S2 x S1
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("parts of a hull are the whole, row by row, for any number of parts", "[stitch]",
+                       ((int D), D), 2, 3) {
+    for (const SideOptions& side : all_sides<D>()) {
+        for (const auto& grid : {specimens::full_box<D>(1), specimens::box_with_body<D>()}) {
+            const SlabParts<D> parts =
+                slab_over<D>(grid, {0, 0.1, 0.25, 0.4, 0.5}, specimens::bending_flow<D>());
+            const Hull<D> whole = stitched<D>(parts, side);
+            for (const std::size_t count : {1u, 2u, 3u, 7u, 20u}) {
+                std::size_t cells = 0;
+                for (std::size_t r = 0; r < count; ++r) {
+                    IdCounter ids{1'000'000};
+                    HullOrder<D> order;
+                    const HullPart<D> part = stitch_part<D>(parts.initial, parts.sweep, parts.terminating,
+                                                            side, ids, {r, count}, order);
+                    REQUIRE(part.range.first == cells);
+                    cells += part.range.count;
+                    REQUIRE(part_is_of<D>(part, whole));
+                    REQUIRE(order.facet_patch == whole.facet_patch);
+                    REQUIRE(order.side_cells == whole.side_cells);
+                }
+                REQUIRE(cells == whole.cells.size());
+            }
+        }
     }
 }
 

@@ -42,17 +42,27 @@ public:
             if (across <= cell || across >= cells_.size()) {
                 continue;
             }
-            const Simplex<D>& others = cells_[across];
-            const std::size_t place = place_of<D>(parity<D>(others) ^ all ^ corners[i], others);
-            const bool agreed = claimed_[across][place] == cell &&
-                                are_opposite<D>(outward_facet<D>(corners, static_cast<int>(i)),
-                                                outward_facet<D>(others, static_cast<int>(place)));
-            pairs += agreed ? 1 : 0;
+            pairs += agree(cell, i, across, all) ? 1 : 0;
         }
         return pairs;
     }
 
+    bool is_paired(Index cell, std::size_t i) const {
+        const Index across = claimed_[cell][i];
+        return across < cells_.size() && across != cell && agree(cell, i, across, parity<D>(cells_[cell]));
+    }
+
 private:
+    /// `all`: the parity of the cell.
+    bool agree(Index cell, std::size_t i, Index across, Index all) const {
+        const Simplex<D>& corners = cells_[cell];
+        const Simplex<D>& others = cells_[across];
+        const std::size_t place = place_of<D>(parity<D>(others) ^ all ^ corners[i], others);
+        return claimed_[across][place] == cell &&
+               are_opposite<D>(outward_facet<D>(corners, static_cast<int>(i)),
+                               outward_facet<D>(others, static_cast<int>(place)));
+    }
+
     std::span<const Simplex<D>> cells_;
     std::span<const Neighbors<D>> claimed_;
 };
@@ -76,6 +86,14 @@ bool pairs_facets(std::span<const Simplex<D>> cells, std::span<const Neighbors<D
     return 2 * pairs == cells.size() * (D + 1); // no half-facet is in two of them
 }
 
+template<int D>
+bool is_paired(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> claimed, Index cell,
+               std::size_t i) {
+    return Pairing<D>{cells, claimed}.is_paired(cell, i);
+}
+
+template bool is_paired<2>(std::span<const Simplex<2>>, std::span<const Neighbors<2>>, Index, std::size_t);
+template bool is_paired<3>(std::span<const Simplex<3>>, std::span<const Neighbors<3>>, Index, std::size_t);
 template bool pairs_facets<2>(std::span<const Simplex<2>>, std::span<const Neighbors<2>>);
 template bool pairs_facets<3>(std::span<const Simplex<3>>, std::span<const Neighbors<3>>);
 

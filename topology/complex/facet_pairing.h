@@ -14,4 +14,10 @@ namespace slabhull {
 template<int D>
 bool pairs_facets(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> claimed);
 
+/// Whether the same holds for facet i of one cell. Needs: vertices in range; false for a neighbour that is
+/// none.
+template<int D>
+bool is_paired(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> claimed, Index cell,
+               std::size_t i);
+
 } // namespace slabhull

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "slabhull/core/array.h"
+#include "slabhull/core/communicator.h"
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/io/formats.h"
 #include "slabhull/io/soup.h"
 #include "slabhull/slab/check.h"
+#include "slabhull/slab/hull_part.h"
 #include "slabhull/slab/slice.h"
 #include "slabhull/slab/slice_filling.h"
 #include "slabhull/topology/hull.h"
@@ -24,6 +26,28 @@ namespace slabhull {
 template<int D>
 void write_hull(io::AtomicFiles& files, const std::filesystem::path& path, const Hull<D>& hull,
                 const std::string& format, const io::WriteOptions& options = {});
+
+/// A part of a hull, and what its files say of the whole.
+template<int D>
+struct PartToWrite {
+    const HullPart<D>& part;
+    const HullOrder<D>& order;
+    std::size_t number = 0;
+    std::size_t parts = 1;
+    Array<std::int64_t> first_cells; ///< of the whole hull, that use each point of the part
+    std::array<Point<3>, 2> box{};   ///< around all points, as files have them
+};
+
+/// What parts have to know of each other before they are written: see PartToWrite. Collective. Cost: linear
+/// in the part; it sends each point's number to one other rank.
+template<int D>
+PartToWrite<D> part_to_write(const HullPart<D>& part, const HullOrder<D>& order, Communicator& ranks);
+
+/// Writes a part of a hull in `format`, "pvtu" or "msh": the files, and the bytes, that write_hull() gives
+/// that part in as many pieces; the first rank's files end with the .pvtu. Throws as write_hull() does.
+template<int D>
+void write_part(io::AtomicFiles& files, const std::filesystem::path& path, const PartToWrite<D>& part,
+                const std::string& format, const io::WriteOptions& options);
 
 /// Writes a cap as a spatial mesh with ids and tracks, as VTU.
 template<int D>

@@ -10,6 +10,8 @@
 
 namespace slabhull {
 
+class Communicator;
+
 /// The mesher of 3D domains: TetGen, or HXT, a part of Gmsh.
 enum class SolidMesher { tetgen, hxt };
 /// Whether this build has the mesher.
@@ -27,6 +29,10 @@ struct CapOptions {
     /// Orders interior points and cells along a space-filling curve instead of leaving the mesher's order (D
     /// = 3; for D = 2 always): walks and checks run about twice as fast on such a mesh.
     bool curve_order = true;
+    /// Ranks that mesh the blocks together, each those whose number is its own modulo their count, and that
+    /// all get the whole mesh; nullptr: this process alone. All of them call mesh_cap(), with the same
+    /// arguments and `blocks` given (D = 3; for D = 2 each meshes for itself).
+    Communicator* ranks = nullptr;
 };
 
 /// A mesh of the domain inside a surface.

@@ -4,6 +4,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/io/csv_table.h"
+#include "slabhull/io/piece.h"
 #include "slabhull/io/read_options.h"
 #include "slabhull/io/soup.h"
 
@@ -130,6 +131,10 @@ void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh,
 /// besides that of write_vtu(), three bits per point.
 void write_pvtu(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                 std::size_t pieces, VtuEncoding encoding = VtuEncoding::raw);
+/// The file of one piece of such a mesh, the bytes that write_pvtu() gives it; with piece 0 also the .pvtu,
+/// as the last file opened, which should get its name last.
+void write_pvtu_piece(AtomicFiles& files, const std::filesystem::path& path, const PieceColumns& piece,
+                      VtuEncoding encoding = VtuEncoding::raw);
 enum class MshVersion { v4_1, v2_2 };
 struct MshOptions {
     MshVersion version = MshVersion::v4_1;
@@ -148,6 +153,9 @@ void write_msh(const std::filesystem::path& path, const MeshColumns& mesh, const
 /// UsageError for other options than the default ones.
 void write_msh_pieces(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                       std::size_t pieces, const MshOptions& options = {});
+/// The file of one piece of such a mesh, the bytes that write_msh_pieces() gives it.
+void write_msh_piece(AtomicFiles& files, const std::filesystem::path& path, const PieceColumns& piece,
+                     const MshOptions& options);
 /// The same into a file that the caller commits.
 void write_vtu(AtomicFile& file, const MeshColumns& mesh, VtuEncoding encoding = VtuEncoding::raw);
 void write_msh(AtomicFile& file, const MeshColumns& mesh, const MshOptions& options = {});

@@ -3,6 +3,7 @@
 
 #include "slabhull/io/atomic_file.h"
 #include "slabhull/io/files.h"
+#include "slabhull/io/piece.h"
 #include "slabhull/io/soup.h"
 
 #include <filesystem>
@@ -90,6 +91,10 @@ struct Format {
     std::vector<std::string_view> signatures; ///< a file starts with one of them; <this is near the start
     FormatReader read{};                      ///< throws FormatLeftOut unless `built`
     Write write = nullptr;                    ///< throws FormatLeftOut unless `built`
+    /// Opens the files of one piece of a mesh that is written in pieces: the bytes that `write` gives them.
+    using WritePiece = void (*)(AtomicFiles& files, const std::filesystem::path& path,
+                                const PieceColumns& piece, const WriteOptions& options);
+    WritePiece write_piece = nullptr; ///< where WriteVariants::pieces
     FormatFeatures features{};
     WriteVariants variants{};
     bool built = true; ///< false: left out of this build by SLABHULL_FORMATS

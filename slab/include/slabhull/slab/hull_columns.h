@@ -27,40 +27,59 @@ Column<std::int64_t> neighbor_column(std::span<const std::array<Index, N>> neigh
             }};
 }
 
-/// A column of value(c) for each cell c, constant up to cell end_of(c) at least. Filling runs is many times
-/// faster than cell by cell.
-template<int D, class Value, class EndOf>
-Column<std::int64_t> column_by_stretches(const Hull<D>& hull, const Value& value, const EndOf& end_of) {
-    return {hull.cells.size(), 1, [value, end_of](std::size_t begin, std::size_t end, std::int64_t* out) {
-                while (begin < end) {
-                    const std::size_t stop = std::min(end, end_of(begin));
-                    out = std::fill_n(out, stop - begin, static_cast<std::int64_t>(value(begin)));
-                    begin = stop;
+/// Which of a hull's cells columns are of: `count` from `first` on.
+struct HullRange {
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
+/// A column of value(c) for each cell c of a range, constant up to cell end_of(c) at least. Filling runs is
+/// many times faster than cell by cell.
+template<class Value, class EndOf>
+Column<std::int64_t> column_by_stretches(const HullRange& cells, const Value& value, const EndOf& end_of) {
+    return {cells.count, 1,
+            [value, end_of, first = cells.first](std::size_t begin, std::size_t end, std::int64_t* out) {
+                for (std::size_t c = first + begin; c < first + end;) {
+                    const std::size_t stop = std::min(first + end, end_of(c));
+                    out = std::fill_n(out, stop - c, static_cast<std::int64_t>(value(c)));
+                    c = stop;
                 }
             }};
 }
 
-// The hull must outlive these.
+// The hull, or its order, must outlive these. Without a range they are of all cells.
 
 template<int D>
-Column<std::int64_t> region_column(const Hull<D>& hull) {
+Column<std::int64_t> region_column(const HullOrder<D>& hull, const HullRange& cells) {
     return column_by_stretches(
-        hull, [&hull](std::size_t c) { return hull.region(c); },
+        cells, [&hull](std::size_t c) { return hull.region(c); },
         [&hull](std::size_t c) { return hull.region_end(c); });
 }
-
 template<int D>
-Column<std::int64_t> patch_column(const Hull<D>& hull) {
-    return column_by_stretches(
-        hull, [&hull](std::size_t c) { return hull.patch(c); },
-        [&hull](std::size_t c) { return hull.prism_end(c); });
+Column<std::int64_t> region_column(const Hull<D>& hull) {
+    return region_column<D>(hull, {0, hull.cells.size()});
 }
 
 template<int D>
-Column<std::int64_t> layer_column(const Hull<D>& hull) {
+Column<std::int64_t> patch_column(const HullOrder<D>& hull, const HullRange& cells) {
     return column_by_stretches(
-        hull, [&hull](std::size_t c) { return hull.layer(c); },
+        cells, [&hull](std::size_t c) { return hull.patch(c); },
+        [&hull](std::size_t c) { return hull.prism_end(c); });
+}
+template<int D>
+Column<std::int64_t> patch_column(const Hull<D>& hull) {
+    return patch_column<D>(hull, {0, hull.cells.size()});
+}
+
+template<int D>
+Column<std::int64_t> layer_column(const HullOrder<D>& hull, const HullRange& cells) {
+    return column_by_stretches(
+        cells, [&hull](std::size_t c) { return hull.layer(c); },
         [&hull](std::size_t c) { return hull.layer_end(c); });
+}
+template<int D>
+Column<std::int64_t> layer_column(const Hull<D>& hull) {
+    return layer_column<D>(hull, {0, hull.cells.size()});
 }
 
 } // namespace slabhull

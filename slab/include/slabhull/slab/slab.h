@@ -4,6 +4,7 @@
 #include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/slab/adapt.h"
 #include "slabhull/slab/cap_reuse.h"
+#include "slabhull/slab/hull_part.h"
 #include "slabhull/slab/layers.h"
 #include "slabhull/slab/stage_clock.h"
 #include "slabhull/slab/stitch.h"
@@ -15,6 +16,8 @@
 #include <vector>
 
 namespace slabhull {
+
+class Communicator;
 
 /// What all slabs of a march share.
 template<int D>
@@ -28,6 +31,9 @@ struct SlabSettings {
     CapReuse reuse = CapReuse::none;
     double reuse_angle = 5; ///< degrees: a moved cap with a smaller angle is meshed anew
     AdaptOptions adapt;     ///< of CapReuse::adapt
+    /// Ranks that build each slab together, all with the same settings, caps and times: each stitches its
+    /// part of the hull (Slab::part). nullptr: this process alone, the whole hull. Not with CapReuse::adapt.
+    Communicator* ranks = nullptr;
 };
 
 /// One slab: its hull, which ends with the cap that the next one starts from.
@@ -45,8 +51,17 @@ struct Slab {
     std::optional<std::size_t> layers_enough; ///< ... and a sufficient number if too few were given
     IdCounter next_ids;                       ///< the next slab's new ids start here
 
-    /// A copy of the terminating cap, made from the hull.
-    SpatialMesh<D> terminating() const { return terminating_cap_of<D>(hull, terminating_facets); }
+    /// In ranks: this rank's part of the hull, and the whole terminating cap. `hull` then has the order of
+    /// the whole, and its points and cells on rank 0 only, which checks it.
+    std::optional<HullPart<D>> part;
+    std::optional<SpatialMesh<D>> cap;
+
+    std::size_t hull_cells() const { return part ? part->hull_cells : hull.cells.size(); }
+    std::size_t hull_points() const { return part ? part->hull_points() : hull.points.size(); }
+    /// A copy of the terminating cap.
+    SpatialMesh<D> terminating() const {
+        return cap ? *cap : terminating_cap_of<D>(hull, terminating_facets);
+    }
 };
 
 /// What a slab needs of its boundary alone: the swept boundary, and a terminating cap meshed anew.

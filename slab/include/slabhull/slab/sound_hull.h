@@ -3,6 +3,7 @@
 
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/check_embedding.h"
+#include "slabhull/slab/check_parts.h"
 #include "slabhull/slab/stage_clock.h"
 
 #include <optional>
@@ -22,5 +23,11 @@ struct SoundHull {
 /// "checking" and "embedding".
 template<int D>
 SoundHull require_sound_hull(const Hull<D>& hull, const std::string& name, bool embedding, StageClock& clock);
+
+/// The same of a hull whose parts are on ranks: check_parts(). The embedding is proven on the first rank,
+/// which gathers the hull for that. Throws on all ranks, or on none. Collective.
+template<int D>
+SoundHull require_sound_parts(const HullPart<D>& part, const HullOrder<D>& order, Communicator& ranks,
+                              const std::string& name, bool embedding, StageClock& clock);
 
 } // namespace slabhull

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/slab/hull_part.h"
 #include "slabhull/slab/id_counter.h"
 #include "slabhull/slab/sweep.h"
 #include "slabhull/topology/hull.h"
@@ -76,5 +77,20 @@ SpatialMesh<D> terminating_cap_of(const Hull<D>& hull, Array<Facet<D>> boundary_
 template<int D>
 Hull<D> stitch(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
                const SideOptions& options, IdCounter& ids);
+
+/// Which part of a hull a rank makes.
+struct PartNumber {
+    std::size_t number = 0;
+    std::size_t parts = 1;
+};
+
+/// One part of the hull that stitch() would make, see range_of_part(), and the order of the whole. Every rank
+/// is given the same caps, sweep and ids; each takes time and memory for its own cells and for what follows
+/// from the boundary: its graph, and the diagonals of the layers that the part touches. The hull's points
+/// cost a bit each. Throws as stitch() does.
+template<int D>
+HullPart<D> stitch_part(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
+                        const SideOptions& options, IdCounter& ids, const PartNumber& part,
+                        HullOrder<D>& order);
 
 } // namespace slabhull

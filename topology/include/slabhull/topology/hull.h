@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace slabhull {
@@ -22,20 +23,14 @@ struct SidePart {
     std::int32_t layer;
 };
 
-/// The boundary of one space-time slab: a closed D-manifold of D-simplices in R^(D+1), time last.
+/// In which order the cells and the points of a hull stand, and what follows from that: all that a rank which
+/// holds some of the cells knows of the others.
 ///
 /// Cells are stored in the order initial cap, side, terminating cap; the side by layer, then by boundary
 /// facet, then by place in the prism's split. So region, layer and patch of a cell follow from its number and
-/// cost nothing. Each simplex is ordered so that its normal N, det[e_1 .. e_D, N] > 0, points out of the
-/// slab.
+/// cost nothing.
 template<int D>
-struct Hull {
-    Array<Point<D + 1>> points;
-    Array<Simplex<D>> cells;
-    Array<Neighbors<D>> neighbors; ///< closed: every entry names a cell
-    IntegerList vertex_ids;
-    IntegerList track_ids;
-
+struct HullOrder {
     std::size_t initial_points = 0; ///< vertices of the initial cap come first,
     std::size_t side_points = 0;    ///< then those in neither cap, then the terminating cap's
     std::size_t initial_cells = 0;
@@ -83,12 +78,12 @@ struct Hull {
         return side_parts.empty() ? facet_patch[prism(cell) % facet_patch.size()] : part(cell)->patch;
     }
 
-    /// The cell after the last one of a cell's region.
+    /// The cell after the last one of a cell's region; a number above all cells for the terminating cap.
     std::size_t region_end(std::size_t cell) const {
         if (cell < initial_cells) {
             return initial_cells;
         }
-        return cell < terminating_begin() ? terminating_begin() : cells.size();
+        return cell < terminating_begin() ? terminating_begin() : std::numeric_limits<std::size_t>::max();
     }
     /// The same for a side cell's prism and its layer; for a cap's, its region.
     std::size_t prism_end(std::size_t cell) const {
@@ -114,6 +109,17 @@ private:
                    : region_end(cell);
     }
     std::size_t prism(std::size_t cell) const { return (cell - initial_cells) / cells_per_prism; }
+};
+
+/// The boundary of one space-time slab: a closed D-manifold of D-simplices in R^(D+1), time last. Each
+/// simplex is ordered so that its normal N, det[e_1 .. e_D, N] > 0, points out of the slab.
+template<int D>
+struct Hull : HullOrder<D> {
+    Array<Point<D + 1>> points;
+    Array<Simplex<D>> cells;
+    Array<Neighbors<D>> neighbors; ///< closed: every entry names a cell
+    IntegerList vertex_ids;
+    IntegerList track_ids;
 };
 
 } // namespace slabhull

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/mesh/point_set.h"
+#include "slabhull/core/point_set.h"
 
 #include <algorithm>
 #include <bit>
 
-namespace slabhull::io {
+namespace slabhull {
 
 namespace {
 std::size_t ones(std::uint64_t word) {
@@ -67,4 +67,4 @@ std::size_t PointSet::next(std::size_t member) const {
     return word * word_bits + static_cast<std::size_t>(std::countr_zero(bits));
 }
 
-} // namespace slabhull::io
+} // namespace slabhull

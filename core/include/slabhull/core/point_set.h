@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace slabhull::io {
+namespace slabhull {
 
 /// Some of the points of a mesh (or of its cells), numbered in ascending order: a bit per point and a count
 /// per 512. Reading is safe from several threads.
@@ -13,6 +13,8 @@ class PointSet {
 public:
     explicit PointSet(std::size_t points) : points_{points}, words_(words_for(points)) {}
 
+    /// How many points the mesh has.
+    std::size_t all() const { return points_; }
     bool contains(std::size_t point) const {
         return (words_[point / word_bits] >> point % word_bits & 1) != 0;
     }
@@ -45,4 +47,4 @@ private:
     std::size_t size_ = 0;
 };
 
-} // namespace slabhull::io
+} // namespace slabhull

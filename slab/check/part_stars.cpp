@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/check/part_stars.h"
+
+#include "slabhull/core/index.h"
+#include "slabhull/slab/hull_part.h"
+
+#include <algorithm>
+
+namespace slabhull {
+
+namespace {
+
+/// The owner of each of a part's points: each point's home is told who uses it, and answers.
+template<int D>
+Array<std::int32_t> owners_of_points(const HullPart<D>& part, Communicator& ranks) {
+    const auto count = static_cast<std::size_t>(ranks.size());
+    std::vector<Array<std::uint64_t>> used(count);
+    each_point_of(part, [&](std::size_t, std::size_t number) {
+        used[home_of_point(number, part.hull_points(), count)].push_back(number);
+    });
+    const std::vector<Array<std::uint64_t>> asked = ranks.all_to_all(used);
+    const std::size_t width = part.hull_points() / count + 1;
+    const std::size_t begin = static_cast<std::size_t>(ranks.rank()) * width;
+    Array<std::int32_t> lowest(width, -1);
+    for (std::size_t r = count; r-- > 0;) {
+        for (const std::uint64_t number : asked[r]) {
+            lowest[number - begin] = static_cast<std::int32_t>(r);
+        }
+    }
+    std::vector<Array<std::int32_t>> answers(count);
+    for (std::size_t r = 0; r < count; ++r) {
+        for (const std::uint64_t number : asked[r]) {
+            answers[r].push_back(lowest[number - begin]);
+        }
+    }
+    Array<std::int32_t> owners;
+    for (const Array<std::int32_t>& of_home : ranks.all_to_all(answers)) { // homes are in the order of points
+        owners.insert(owners.end(), of_home.begin(), of_home.end());
+    }
+    return owners;
+}
+
+/// A cell as another rank is told of it, in the numbers of the hull.
+template<int D>
+struct GhostCell {
+    std::uint64_t number;
+    std::array<std::uint64_t, D + 1> vertices;
+    std::array<std::uint64_t, D + 1> neighbors;
+    std::uint8_t region;
+};
+
+template<int D>
+class StarCompletion {
+public:
+    StarCompletion(const HullPart<D>& part, const Array<std::uint8_t>& region, Communicator& ranks)
+        : part_{part}, region_{region}, ranks_{ranks}, numbers_(part.points.size()) {
+        each_point_of(part, [&](std::size_t k, std::size_t number) { numbers_[k] = number; });
+    }
+
+    PartStars<D> run() {
+        const Array<std::int32_t> owners = owners_of_points(part_, ranks_);
+        PartStars<D> stars;
+        stars.owned.resize(owners.size());
+        std::transform(owners.begin(), owners.end(), stars.owned.begin(),
+                       [&](std::int32_t owner) -> std::uint8_t { return owner == ranks_.rank() ? 1 : 0; });
+        exchange(owners);
+        number_vertices(stars);
+        number_cells(stars);
+        return stars;
+    }
+
+private:
+    /// Sends the cells at vertices of other owners there, and receives those at its own.
+    void exchange(const Array<std::int32_t>& owners) {
+        std::vector<Array<GhostCell<D>>> to(static_cast<std::size_t>(ranks_.size()));
+        for (std::size_t c = 0; c < part_.cells.size(); ++c) {
+            std::array<std::int32_t, D + 1> owner;
+            for (std::size_t i = 0; i <= D; ++i) {
+                owner[i] = owners[part_.cells[c][i]];
+            }
+            for (std::size_t i = 0; i <= D; ++i) {
+                if (owner[i] != ranks_.rank() &&
+                    std::find(owner.begin(), owner.begin() + i, owner[i]) == owner.begin() + i) {
+                    to[static_cast<std::size_t>(owner[i])].push_back(as_ghost(c));
+                }
+            }
+        }
+        for (const Array<GhostCell<D>>& from : ranks_.all_to_all(to)) { // ranks are in the order of cells
+            ghosts_.insert(ghosts_.end(), from.begin(), from.end());
+        }
+        checked_index(part_.cells.size() + ghosts_.size(), "cells of a part");
+    }
+
+    GhostCell<D> as_ghost(std::size_t c) const {
+        GhostCell<D> ghost{};
+        ghost.number = part_.range.first + c;
+        ghost.region = region_[c];
+        for (std::size_t i = 0; i <= D; ++i) {
+            ghost.vertices[i] = numbers_[part_.cells[c][i]];
+            ghost.neighbors[i] = part_.in_hull(part_.neighbors[c][i]);
+        }
+        return ghost;
+    }
+
+    /// The vertices that only ghosts have come after the part's.
+    void number_vertices(PartStars<D>& stars) {
+        for (const GhostCell<D>& ghost : ghosts_) {
+            for (const std::uint64_t number : ghost.vertices) {
+                if (!part_.points_used->contains(number)) {
+                    others_.push_back(number);
+                }
+            }
+        }
+        std::sort(others_.begin(), others_.end());
+        others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+        stars.owned.resize(part_.points.size() + others_.size(), 0);
+    }
+
+    Index vertex_here(std::uint64_t number) const {
+        if (part_.points_used->contains(number)) {
+            return static_cast<Index>(part_.points_used->rank(number));
+        }
+        const auto place = std::lower_bound(others_.begin(), others_.end(), number) - others_.begin();
+        return static_cast<Index>(part_.points.size() + static_cast<std::size_t>(place));
+    }
+
+    Index cell_here(std::uint64_t number) const {
+        if (number - part_.range.first < part_.range.count) {
+            return static_cast<Index>(number - part_.range.first);
+        }
+        const auto place =
+            std::lower_bound(ghosts_.begin(), ghosts_.end(), number,
+                             [](const GhostCell<D>& ghost, std::uint64_t n) { return ghost.number < n; });
+        return place != ghosts_.end() && place->number == number
+                   ? static_cast<Index>(part_.cells.size() +
+                                        static_cast<std::size_t>(place - ghosts_.begin()))
+                   : no_index;
+    }
+
+    void number_cells(PartStars<D>& stars) const {
+        const std::size_t own = part_.cells.size();
+        stars.cells = part_.cells;
+        stars.neighbors = part_.neighbors;
+        stars.region = region_;
+        Array<Index> outside(part_.outside.size());
+        std::transform(part_.outside.begin(), part_.outside.end(), outside.begin(),
+                       [&](std::uint64_t number) { return cell_here(number); });
+        for (Neighbors<D>& row : stars.neighbors) {
+            for (Index& neighbor : row) {
+                neighbor = neighbor < own ? neighbor : outside[neighbor - own];
+            }
+        }
+        for (const GhostCell<D>& ghost : ghosts_) {
+            Simplex<D> cell;
+            Neighbors<D> across;
+            for (std::size_t i = 0; i <= D; ++i) {
+                cell[i] = vertex_here(ghost.vertices[i]);
+                across[i] = cell_here(ghost.neighbors[i]);
+            }
+            stars.cells.push_back(cell);
+            stars.neighbors.push_back(across);
+            stars.region.push_back(ghost.region);
+        }
+    }
+
+    const HullPart<D>& part_;
+    const Array<std::uint8_t>& region_;
+    Communicator& ranks_;
+    Array<std::uint64_t> numbers_; ///< of the part's points in the hull
+    Array<GhostCell<D>> ghosts_;
+    Array<std::uint64_t> others_; ///< vertices of ghosts alone
+};
+
+} // namespace
+
+template<int D>
+PartStars<D> complete_stars(const HullPart<D>& part, const Array<std::uint8_t>& region, Communicator& ranks) {
+    return StarCompletion<D>{part, region, ranks}.run();
+}
+
+template PartStars<2> complete_stars<2>(const HullPart<2>&, const Array<std::uint8_t>&, Communicator&);
+template PartStars<3> complete_stars<3>(const HullPart<3>&, const Array<std::uint8_t>&, Communicator&);
+
+} // namespace slabhull
