@@ -251,7 +251,7 @@ void check_refusal(const GeometryError& refusal, const Pairs& expected) {
 
 TEMPLATE_TEST_CASE_SIG("200 random sound hulls are proven, as by pairs", "[embedding]", ((int D), D), 2, 3) {
     Random random{17};
-    for (int k = 0; k < rounds(100); ++k) {
+    for (int k = 0; k < rounds(60); ++k) {
         const Soup<D> hull = with_moved_body<D>(random, 0.3, 0.2, 0.03);
         const HullEmbedding<D> found = examine(hull);
         REQUIRE(found.crossings.empty());
@@ -365,7 +365,7 @@ TEMPLATE_TEST_CASE_SIG("a run refuses 20 random bodies that cross between levels
 TEMPLATE_TEST_CASE_SIG("a run refuses none of 100 random slabs that are sound", "[embedding]", ((int D), D),
                        2, 3) {
     TwoBodies<D> scene{41};
-    for (int k = 0; k < rounds(100); ++k) {
+    for (int k = 0; k < rounds(60); ++k) {
         const scratch::Folder folder;
         Case the_case = scene.apart();
         the_case.directory = folder / "out";
