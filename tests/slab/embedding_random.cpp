@@ -362,7 +362,7 @@ TEMPLATE_TEST_CASE_SIG("a run refuses 20 random bodies that cross between levels
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a run refuses none of 100 random slabs that are sound", "[embedding]", ((int D), D),
+TEMPLATE_TEST_CASE_SIG("a run refuses none of 60 random slabs that are sound", "[embedding]", ((int D), D),
                        2, 3) {
     TwoBodies<D> scene{41};
     for (int k = 0; k < rounds(60); ++k) {
