@@ -55,7 +55,14 @@ Array<Neighbors<D>> neighbor_table(const Claims<D>& claims) {
     return table;
 }
 
-/// Cells [begin, end) of a hull as a rank has them.
+/// A cell's claimed neighbour; where there is none, the cell itself, which no part takes for a neighbour.
+template<int D>
+std::uint64_t claimed_neighbor(const Claims<D>& claims, std::size_t cell, std::size_t i) {
+    const std::int64_t n = claims.neighbors[cell * (D + 1) + i];
+    return n < 0 ? cell : static_cast<std::uint64_t>(n);
+}
+
+/// Some cells of a hull as a rank has them.
 template<int D>
 HullPart<D> part_of(const Claims<D>& claims, const HullRange& range) {
     HullPart<D> part;
@@ -66,7 +73,7 @@ HullPart<D> part_of(const Claims<D>& claims, const HullRange& range) {
         part.cells.push_back(claims.cells[c]);
         for (std::size_t i = 0; i <= D; ++i) {
             used->insert(claims.cells[c][i]);
-            const auto n = static_cast<std::uint64_t>(claims.neighbors[c * (D + 1) + i]);
+            const std::uint64_t n = claimed_neighbor(claims, c, i);
             if (n - range.first >= range.count) {
                 part.outside.push_back(n);
             }
@@ -79,7 +86,7 @@ HullPart<D> part_of(const Claims<D>& claims, const HullRange& range) {
         Neighbors<D>& row = part.neighbors.emplace_back();
         for (std::size_t i = 0; i <= D; ++i) {
             part.cells[c][i] = static_cast<Index>(used->rank(part.cells[c][i]));
-            const auto n = static_cast<std::uint64_t>(claims.neighbors[(range.first + c) * (D + 1) + i]);
+            const std::uint64_t n = claimed_neighbor(claims, range.first + c, i);
             const auto place = std::lower_bound(part.outside.begin(), part.outside.end(), n);
             row[i] = static_cast<Index>(n - range.first < range.count
                                             ? n - range.first
@@ -98,7 +105,7 @@ HullPart<D> part_of(const Claims<D>& claims, const HullRange& range) {
     return part;
 }
 
-/// Whether parts can say what a hull says: an index out of range, or no neighbour, they cannot.
+/// Whether parts can say what a hull says: an index out of range they cannot.
 template<int D>
 bool can_be_divided(const Claims<D>& claims) {
     const HullColumns<D> columns = claims.columns();
@@ -107,7 +114,7 @@ bool can_be_divided(const Claims<D>& claims) {
            claims.track_id.size() == claims.points.size() &&
            claims.neighbors.size() == claims.cells.size() * (D + 1) &&
            std::all_of(claims.neighbors.begin(), claims.neighbors.end(),
-                       [&](std::int64_t n) { return n >= 0 && n < cells; }) &&
+                       [&](std::int64_t n) { return n >= -1 && n < cells; }) &&
            std::all_of(claims.cells.begin(), claims.cells.end(), [&](const Simplex<D>& cell) {
                return std::all_of(cell.begin(), cell.end(),
                                   [&](Index v) { return v < claims.points.size(); });
