@@ -167,41 +167,56 @@ private:
 
     // --- points and ids: what may be equal meets on one rank
 
-    bool points_differ(const PartStars<D>& stars) {
-        std::vector<Array<Point<D + 1>>> to(static_cast<std::size_t>(ranks_.size()));
+    static std::uint64_t hash_of_point(const Point<D + 1>& point) {
+        std::uint64_t hash = 0;
+        for (const double x : point) {
+            hash = combined_hash(hash, std::bit_cast<std::uint64_t>(x + 0.0)); // -0.0 is 0.0
+        }
+        return multiplied_hash(hash);
+    }
+
+    /// Brings a value of each owned point to the rank that its hash says, and all that come to this one.
+    template<class T, class Hash, class ValueOf>
+    Array<T> brought_together(const PartStars<D>& stars, const Hash& hash, const ValueOf& value_of) const {
+        std::vector<Array<T>> to(static_cast<std::size_t>(ranks_.size()));
         for (std::size_t v = 0; v < part_.points.size(); ++v) {
             if (stars.owned[v] != 0) {
-                std::uint64_t hash = 0;
-                for (const double x : part_.points[v]) {
-                    hash = combined_hash(hash, std::bit_cast<std::uint64_t>(x + 0.0)); // -0.0 is 0.0
-                }
-                to[multiplied_hash(hash) % to.size()].push_back(part_.points[v]);
+                to[hash(v) % to.size()].push_back(value_of(v));
             }
         }
-        Array<Point<D + 1>> here;
-        for (const Array<Point<D + 1>>& from : ranks_.all_to_all(to)) {
+        Array<T> here;
+        for (Array<T>& from : ranks_.all_to_all(to)) {
             here.insert(here.end(), from.begin(), from.end());
+            from = {};
         }
+        return here;
+    }
+
+    /// Whether values are all different, on all ranks.
+    template<class T>
+    bool all_differ(Array<T> values) const {
+        std::sort(values.begin(), values.end());
+        return all(std::adjacent_find(values.begin(), values.end()) == values.end());
+    }
+
+    /// Points whose hashes differ do; only if some are equal, the points themselves are compared.
+    bool points_differ(const PartStars<D>& stars) {
+        const auto hash = [&](std::size_t v) { return hash_of_point(part_.points[v]); };
+        if (all_differ(brought_together<std::uint64_t>(stars, hash, hash))) {
+            return true;
+        }
+        const auto point = [&](std::size_t v) { return part_.points[v]; };
+        const auto here = brought_together<Point<D + 1>>(stars, hash, point);
         check_coincident<D + 1>(here, findings_);
         return none_found();
     }
 
-    bool ids_differ(const PartStars<D>& stars) {
-        std::vector<Array<std::int64_t>> to(static_cast<std::size_t>(ranks_.size()));
-        bool sound = true;
-        for (std::size_t v = 0; v < part_.points.size(); ++v) {
-            const std::int64_t id = part_.vertex_ids[v];
-            sound = sound && id >= 0;
-            if (stars.owned[v] != 0) {
-                to[static_cast<std::uint64_t>(id) % to.size()].push_back(id);
-            }
-        }
-        Array<std::int64_t> here;
-        for (const Array<std::int64_t>& from : ranks_.all_to_all(to)) {
-            here.insert(here.end(), from.begin(), from.end());
-        }
-        std::sort(here.begin(), here.end());
-        return all(sound && std::adjacent_find(here.begin(), here.end()) == here.end());
+    bool ids_differ(const PartStars<D>& stars) const {
+        const auto id = [&](std::size_t v) { return part_.vertex_ids[v]; };
+        const auto hash = [&](std::size_t v) { return static_cast<std::uint64_t>(part_.vertex_ids[v]); };
+        const Array<std::int64_t> here = brought_together<std::int64_t>(stars, hash, id);
+        const bool sound = std::all_of(here.begin(), here.end(), [](std::int64_t each) { return each >= 0; });
+        return all(sound) && all_differ(here);
     }
 
     // --- measures
