@@ -120,6 +120,17 @@ struct Hull : HullOrder<D> {
     Array<Neighbors<D>> neighbors; ///< closed: every entry names a cell
     IntegerList vertex_ids;
     IntegerList track_ids;
+
+    /// Those of HullOrder; the terminating cap ends with the cells.
+    std::size_t region_end(std::size_t cell) const {
+        return std::min(HullOrder<D>::region_end(cell), cells.size());
+    }
+    std::size_t prism_end(std::size_t cell) const {
+        return std::min(HullOrder<D>::prism_end(cell), cells.size());
+    }
+    std::size_t layer_end(std::size_t cell) const {
+        return std::min(HullOrder<D>::layer_end(cell), cells.size());
+    }
 };
 
 } // namespace slabhull
