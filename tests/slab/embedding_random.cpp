@@ -362,8 +362,8 @@ TEMPLATE_TEST_CASE_SIG("a run refuses 20 random bodies that cross between levels
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a run refuses none of 60 random slabs that are sound", "[embedding]", ((int D), D),
-                       2, 3) {
+TEMPLATE_TEST_CASE_SIG("a run refuses none of 60 random slabs that are sound", "[embedding]", ((int D), D), 2,
+                       3) {
     TwoBodies<D> scene{41};
     for (int k = 0; k < rounds(60); ++k) {
         const scratch::Folder folder;
