@@ -130,8 +130,10 @@ public:
     template<class List>
     List take(std::size_t count) {
         List list(count);
-        std::memcpy(list.data(), bytes_.data(), count * sizeof list[0]);
-        bytes_ = bytes_.subspan(count * sizeof list[0]);
+        const std::span<std::byte> copy = std::as_writable_bytes(std::span{list});
+        std::ranges::copy(bytes_.first(copy.size()),
+                          copy.begin()); // memcpy takes no null, not even for nothing
+        bytes_ = bytes_.subspan(copy.size());
         return list;
     }
     std::span<const std::byte> rest() const { return bytes_; }
