@@ -57,47 +57,49 @@ void tell(int descriptor, const News& news) {
     ::send(descriptor, &news, sizeof news, MSG_NOSIGNAL);
 }
 
-// --- the host's side of sending -------------------------------------------------------------------
+/// A message of an order and two sockets, either way.
+class OrderMessage {
+public:
+    explicit OrderMessage(const Order& order = {}) : order_{order} {
+        message_.msg_iov = &text_;
+        message_.msg_iovlen = 1;
+        message_.msg_control = control_.data();
+        message_.msg_controllen = control_.size();
+    }
+    OrderMessage(const OrderMessage&) = delete;
+    OrderMessage& operator=(const OrderMessage&) = delete;
 
-bool send_order(int server, const Order& order, std::array<int, 2> sockets) {
-    iovec text{const_cast<Order*>(&order), sizeof order};
-    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof sockets)> control{};
-    msghdr message{};
-    message.msg_iov = &text;
-    message.msg_iovlen = 1;
-    message.msg_control = control.data();
-    message.msg_controllen = control.size();
-    cmsghdr* const header = CMSG_FIRSTHDR(&message);
-    header->cmsg_level = SOL_SOCKET;
-    header->cmsg_type = SCM_RIGHTS;
-    header->cmsg_len = CMSG_LEN(sizeof sockets);
-    std::memcpy(CMSG_DATA(header), sockets.data(), sizeof sockets);
-    return ::sendmsg(server, &message, MSG_NOSIGNAL) == sizeof order;
-}
+    bool send(int server, std::array<int, 2> sockets) {
+        cmsghdr* const header = CMSG_FIRSTHDR(&message_);
+        header->cmsg_level = SOL_SOCKET;
+        header->cmsg_type = SCM_RIGHTS;
+        header->cmsg_len = CMSG_LEN(sizeof sockets);
+        std::memcpy(CMSG_DATA(header), sockets.data(), sizeof sockets);
+        return ::sendmsg(server, &message_, MSG_NOSIGNAL) == sizeof order_;
+    }
+
+    /// Empty when the host is gone.
+    std::optional<Order> receive(int host, std::array<int, 2>& sockets) {
+        ssize_t size = 0;
+        do {
+            size = ::recvmsg(host, &message_, MSG_CMSG_CLOEXEC);
+        } while (size < 0 && errno == EINTR);
+        const cmsghdr* const header = CMSG_FIRSTHDR(&message_);
+        if (size != sizeof order_ || header == nullptr || header->cmsg_len != CMSG_LEN(sizeof sockets)) {
+            return std::nullopt;
+        }
+        std::memcpy(sockets.data(), CMSG_DATA(header), sizeof sockets);
+        return order_;
+    }
+
+private:
+    Order order_;
+    iovec text_{&order_, sizeof order_};
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(2 * sizeof(int))> control_{};
+    msghdr message_{};
+};
 
 // --- in the server, its keepers and workers -------------------------------------------------------
-
-/// Empty when the host is gone.
-std::optional<Order> next_order(int host, std::array<int, 2>& sockets) {
-    Order order;
-    iovec text{&order, sizeof order};
-    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof sockets)> control{};
-    msghdr message{};
-    message.msg_iov = &text;
-    message.msg_iovlen = 1;
-    message.msg_control = control.data();
-    message.msg_controllen = control.size();
-    ssize_t size = 0;
-    do {
-        size = ::recvmsg(host, &message, MSG_CMSG_CLOEXEC);
-    } while (size < 0 && errno == EINTR);
-    const cmsghdr* const header = CMSG_FIRSTHDR(&message);
-    if (size != sizeof order || header == nullptr || header->cmsg_len != CMSG_LEN(sizeof sockets)) {
-        return std::nullopt;
-    }
-    std::memcpy(sockets.data(), CMSG_DATA(header), sizeof sockets);
-    return order;
-}
 
 [[noreturn]] void work(const Order& order, int data, int news) {
     std::vector<std::byte> request(order.request_bytes);
@@ -159,7 +161,7 @@ void hold_only(int descriptor) {
     ::sigprocmask(SIG_BLOCK, &of_terminals, nullptr);
     const pid_t server = ::getpid();
     std::array<int, 2> sockets{};
-    while (const std::optional<Order> order = next_order(host.number(), sockets)) {
+    while (const std::optional<Order> order = OrderMessage{}.receive(host.number(), sockets)) {
         Descriptor data{sockets[0]};
         Descriptor news{sockets[1]};
         if (::fork() == 0) {
@@ -194,7 +196,7 @@ public:
     bool order(const Order& order, std::array<int, 2> sockets) {
         const std::lock_guard guard{lock_};
         for (int attempt = 0; attempt < 2; ++attempt) {
-            if ((is_ours() || launch()) && send_order(host_.number(), order, sockets)) {
+            if ((is_ours() || launch()) && OrderMessage{order}.send(host_.number(), sockets)) {
                 return true;
             }
             host_.close_now(); // it was killed

@@ -22,6 +22,19 @@ std::vector<Piece> parallel_pieces(std::size_t count, std::size_t grain, const B
     return pieces;
 }
 
+/// Where part `part` of `count` items begins, if they are divided into `parts` of nearly equal length, in
+/// order: the first ones are longer by one.
+constexpr std::size_t begin_of_part(std::size_t count, std::size_t part, std::size_t parts) {
+    return count / parts * part + std::min(part, count % parts);
+}
+
+/// Sorts a list, and leaves one of equal entries.
+template<class List>
+void sort_out(List& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
 /// Lists, one after the other.
 template<class List>
 List joined(std::vector<List> lists) {

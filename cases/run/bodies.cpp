@@ -6,6 +6,7 @@
 #include "cases/run/mesh_soup.h"
 #include "cases/run/orientation.h"
 #include "core/listed.h"
+#include "geometry/embedding/box_tree.h"
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/embedding.h"
 #include "slabhull/geometry/shapes.h"
@@ -234,14 +235,11 @@ private:
     void warn_of_sizes(const std::vector<Surface<D>>& pieces, const std::string& where) const {
         constexpr double usual = 500;
         const auto longest_side = [](const Surface<D>& piece) {
-            double longest = 0;
-            for (std::size_t k = 0; k < D; ++k) {
-                const auto [low, high] =
-                    std::minmax_element(piece.points.begin(), piece.points.end(),
-                                        [k](const Point<D>& a, const Point<D>& b) { return a[k] < b[k]; });
-                longest = std::max(longest, (*high)[k] - (*low)[k]);
+            Box<D> box;
+            for (const Point<D>& point : piece.points) {
+                box.include(point);
             }
-            return longest;
+            return box.extent();
         };
         double largest = 0;
         for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {

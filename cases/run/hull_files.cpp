@@ -4,6 +4,8 @@
 #include "cases/run/index_rows.h"
 #include "cases/run/mesh_soup.h"
 #include "edit/soup_cells.h"
+#include "geometry/embedding/box_tree.h"
+#include "slab/check/part_exchange.h"
 #include "slabhull/core/error.h"
 #include "slabhull/io/files.h"
 #include "slabhull/slab/hull_columns.h"
@@ -13,7 +15,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -253,52 +254,6 @@ Array<std::int64_t> first_cells_here(const HullPart<D>& part) {
     return first;
 }
 
-/// A point of the hull, and a cell that uses it.
-struct PointUse {
-    std::uint64_t point;
-    std::int64_t cell;
-};
-
-/// Of all the parts that use a point, the lowest cell: each point is asked for at the rank that is
-/// responsible for its number, which is told of all uses.
-template<int D>
-Array<std::int64_t> first_cells_in_hull(const HullPart<D>& part, Communicator& ranks) {
-    const auto parts = static_cast<std::size_t>(ranks.size());
-    Array<std::int64_t> first = first_cells_here(part);
-    std::vector<Array<PointUse>> uses(parts);
-    const auto home_of = [&](std::size_t point) { // consecutive points have one home
-        return std::min(parts - 1, point / (part.hull_points() / parts + 1));
-    };
-    std::size_t point = first.empty() ? 0 : part.points_used->member(0);
-    for (std::size_t k = 0; k < first.size(); ++k) {
-        uses[home_of(point)].push_back({point, first[k]});
-        point = k + 1 < first.size() ? part.points_used->next(point) : point;
-    }
-    std::vector<Array<PointUse>> asked = ranks.all_to_all(uses);
-    const std::size_t begin = static_cast<std::size_t>(ranks.rank()) * (part.hull_points() / parts + 1);
-    Array<std::int64_t> lowest(part.hull_points() / parts + 1, std::numeric_limits<std::int64_t>::max());
-    for (const Array<PointUse>& of_rank : asked) {
-        for (const PointUse& use : of_rank) {
-            std::int64_t& cell = lowest[use.point - begin];
-            cell = std::min(cell, use.cell);
-        }
-    }
-    std::vector<Array<std::int64_t>> answers(parts);
-    for (std::size_t r = 0; r < parts; ++r) {
-        for (const PointUse& use : asked[r]) {
-            answers[r].push_back(lowest[use.point - begin]);
-        }
-    }
-    const std::vector<Array<std::int64_t>> told = ranks.all_to_all(answers);
-    std::size_t k = 0;
-    for (const Array<std::int64_t>& of_home : told) { // homes are in the order of points
-        for (const std::int64_t cell : of_home) {
-            first[k++] = cell;
-        }
-    }
-    return first;
-}
-
 std::size_t row_count(const DataArray& array) {
     const auto values = std::visit([](const auto& stored) { return stored.size(); }, array.values);
     return values / static_cast<std::size_t>(std::max(1, array.components));
@@ -466,24 +421,16 @@ PartToWrite<D> part_to_write(const HullPart<D>& part, const HullOrder<D>& order,
                        order,
                        static_cast<std::size_t>(ranks.rank()),
                        static_cast<std::size_t>(ranks.size()),
-                       first_cells_in_hull(part, ranks),
+                       lowest_at_points(part, ranks, first_cells_here(part)),
                        {}};
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::array<Point<3>, 2> box{Point<3>{infinity, infinity, infinity},
-                                Point<3>{-infinity, -infinity, -infinity}};
+    Box<3> box;
     for (const Point<D + 1>& point : part.points) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            box[0][k] = std::min(box[0][k], point[k]);
-            box[1][k] = std::max(box[1][k], point[k]);
-        }
+        box.include(Point<3>{point[0], point[1], point[2]});
     }
-    for (const auto& [lower, upper] : ranks.gather(box)) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            box[0][k] = std::min(box[0][k], lower[k]);
-            box[1][k] = std::max(box[1][k], upper[k]);
-        }
+    for (const Box<3>& of_rank : ranks.gather(box)) {
+        box.include(of_rank);
     }
-    all.box = box;
+    all.box = {box.low, box.high};
     return all;
 }
 

@@ -8,7 +8,6 @@
 #include "slabhull/cases/initial.h"
 #include "slabhull/cases/settings.h"
 #include "slabhull/geometry/embedding.h"
-#include "slabhull/geometry/size_field.h"
 #include "slabhull/slab/layers.h"
 #include "slabhull/slab/stitch.h"
 
@@ -66,9 +65,8 @@ private:
             plan_.cap_simplices = static_cast<double>(mesh_.cells.size());
             return;
         }
-        const std::vector<double> spacing = boundary_.mean_edges(boundary_.start());
-        const SizeField<D> sizes{boundary_.start(), spacing, {case_.cap_growth, case_.cap_size}};
-        plan_.cap_simplices = cells_per_cube<D> * sizes.cube_count();
+        plan_.cap_simplices =
+            most_cap_cells<D>(boundary_, boundary_.start(), {case_.cap_growth, case_.cap_size});
     }
 
     /// Moves the boundary to the slab's end.

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 
 namespace slabhull {
@@ -270,21 +269,15 @@ void BoundaryInspection<D>::require_nesting(const Boundary<D>& boundary) const {
 template<int D>
 template<class Takes>
 std::string BoundaryInspection<D>::extent_in_words(const Takes& takes) const {
-    Point<D> low;
-    Point<D> high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
+    Box<D> box;
     for (Index f = 0; f < surface_.facets.size(); ++f) {
         if (takes(f)) {
             for (const Index v : surface_.facets[f]) {
-                for (std::size_t k = 0; k < D; ++k) {
-                    low[k] = std::min(low[k], surface_.points[v][k]);
-                    high[k] = std::max(high[k], surface_.points[v][k]);
-                }
+                box.include(surface_.points[v]);
             }
         }
     }
-    return fmt::format("{} to {}", place_in_words(low), place_in_words(high));
+    return fmt::format("{} to {}", place_in_words(box.low), place_in_words(box.high));
 }
 
 /// Where a body that is outside the domain is, and what to do about it.

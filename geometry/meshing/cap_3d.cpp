@@ -4,7 +4,6 @@
 #include "geometry/meshing/solid_mesher.h"
 
 #include "slabhull/core/error.h"
-#include "slabhull/core/progress.h"
 #include "slabhull/geometry/embedding.h"
 #include "slabhull/geometry/mesh_order.h"
 
@@ -61,7 +60,6 @@ CapMesh<3> mesh_cap<3>(const Boundary<3>& boundary, const Surface<3>& surface, c
     }
     const SizeField<3> size{surface.points, boundary_spacing<3>(surface.points, surface.facets),
                             options.grading};
-    expect_work(static_cast<std::uint64_t>(cells_per_cube<3> * size.cube_count()));
     CapMesh<3> mesh = mesh_in_blocks(boundary, surface, size, options);
     if (options.curve_order) {
         order_along_curve<3>(mesh, surface.points.size());

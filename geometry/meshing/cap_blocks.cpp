@@ -10,6 +10,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/progress.h"
 
 #include <fmt/format.h>
 
@@ -240,13 +241,14 @@ CapMesh<3> mesh_in_blocks(const Boundary<3>& boundary, const Surface<3>& surface
     if (options.ranks != nullptr && options.blocks == 0) {
         throw UsageError{"ranks mesh a cap in a given number of blocks, as their memory may differ"};
     }
+    const double most_cells = cells_per_cube<3> * size.cube_count(); // if the domain filled its bounding box
+    expect_work(static_cast<std::uint64_t>(most_cells));
     if (options.blocks == 1) {
         return mesh_whole(boundary, surface, size, options);
     }
     const double memory = usable_memory * static_cast<double>(available_memory());
-    if (options.blocks == 0 &&
-        bytes_for(options.mesher, cells_per_cube<3> * size.cube_count(), 1, 1) <= memory) {
-        return fill(boundary, surface, size, options); // would fit even if the domain filled its bounding box
+    if (options.blocks == 0 && bytes_for(options.mesher, most_cells, 1, 1) <= memory) {
+        return fill(boundary, surface, size, options);
     }
     std::vector<LoadSample> load = sample_load(surface, size);
     const double cells = cells_per_cube<3> * cubes_in(load);

@@ -18,15 +18,18 @@ namespace slabhull {
 
 namespace {
 
-/// Without this check, a tiny edge without growth would ask for triangles until memory is full.
-void require_countable(const SizeField<2>& field) {
-    const double wanted = field.cube_count() * 4 / std::numbers::sqrt3;
+/// SizeField::cube_count(), where it can be met: a tiny edge without growth would ask for triangles until
+/// memory is full.
+double countable_cubes(const SizeField<2>& field) {
+    const double cubes = field.cube_count();
+    const double wanted = cubes * 4 / std::numbers::sqrt3;
     if (!(wanted < static_cast<double>(no_index))) {
         throw LimitError{
             fmt::format("the spacing of the boundary and its growth ask for about {:.2g} triangles; allow "
                         "a larger growth or remove the shortest edges",
                         wanted)};
     }
+    return cubes;
 }
 
 } // namespace
@@ -37,8 +40,7 @@ CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
     require_attainable<2>(surface, options.grading.largest);
     const std::span<const Point<2>> points{surface.points};
     const SizeField<2> field{points, boundary_spacing<2>(points, surface.facets), options.grading};
-    require_countable(field);
-    expect_work(static_cast<std::uint64_t>(cells_per_cube<2> * field.cube_count()));
+    expect_work(static_cast<std::uint64_t>(cells_per_cube<2> * countable_cubes(field)));
     refine_delaunay(mesh, {surface, std::cref(field), options.grading.growth}, options.min_angle);
 
     order_along_curve<2>(mesh, surface.points.size());

@@ -103,6 +103,14 @@ void require_attainable(const Surface<D>& surface, double largest, const char* k
                                  1.05 * std::pow(cells_per_cube<D> * volume / most, 1.0 / D))};
 }
 
+template<int D>
+double most_cap_cells(const Boundary<D>& boundary, std::span<const Point<D>> places, const Grading& grading) {
+    const std::vector<double> spacing = boundary.mean_edges(places);
+    return cells_per_cube<D> * SizeField<D>{places, spacing, grading}.cube_count();
+}
+
+template double most_cap_cells<2>(const Boundary<2>&, std::span<const Point<2>>, const Grading&);
+template double most_cap_cells<3>(const Boundary<3>&, std::span<const Point<3>>, const Grading&);
 template void require_attainable<2>(const Surface<2>&, double, const char*);
 template void require_attainable<3>(const Surface<3>&, double, const char*);
 

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/geometry/size_field.h"
+#include "slabhull/topology/boundary.h"
 #include "slabhull/topology/spatial_mesh.h"
+
+#include <span>
 
 namespace slabhull {
 
 /// Cells of a cap per cube (square) of the wanted spacing.
 template<int D>
 inline constexpr double cells_per_cube = D == 3 ? 7.2 : 2.3;
+
+/// Cells of a cap if the domain filled the box around its boundary, which is at `places`: more than there
+/// will be. Cost: that of a SizeField.
+template<int D>
+double most_cap_cells(const Boundary<D>& boundary, std::span<const Point<D>> places, const Grading& grading);
 
 /// Throws LimitError, with the figures, if filling the domain with cells no longer than `largest` needs more
 /// cells than indices can count or free memory can hold; nothing of that size is allocated. `key`: what the

@@ -372,10 +372,6 @@ std::string extensions_of_all() {
     return all;
 }
 
-} // namespace
-
-namespace {
-
 /// Whether a file of text lacks the first words of its format, which STL, OBJ and TetGen's files need not
 /// have.
 bool begins_like_no(std::string_view format, const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/mesh/mesh_pieces.h"
 
+#include "core/pieces.h"
 #include "io/mesh/column_stream.h"
 #include "slabhull/core/error.h"
 
@@ -160,8 +161,7 @@ MeshPieces::MeshPieces(const MeshColumns& mesh, std::size_t pieces)
 }
 
 std::size_t MeshPieces::first_cell(std::size_t piece) const {
-    const std::size_t cells = mesh_.cells.rows();
-    return cells / pieces_ * piece + std::min(piece, cells % pieces_);
+    return begin_of_part(mesh_.cells.rows(), piece, pieces_);
 }
 
 /// Chooses a piece's lower simplices. In the last piece also adds the points of those that are left.

@@ -6,6 +6,7 @@
 #include "slab/check/cell_survey.h"
 #include "slab/check/check_shape.h"
 #include "slab/check/hull_view.h"
+#include "slab/check/part_exchange.h"
 #include "slab/check/part_stars.h"
 #include "slabhull/core/index.h"
 #include "slabhull/core/memory.h"
@@ -101,11 +102,7 @@ private:
         counts.cells = part_.hull_cells;
         counts.facets = counts.cells * (D + 1) / 2;
         counts.edges = D == 2 ? counts.facets : ranks_.sum(here.link_vertices) / 2;
-        const auto alternating =
-            static_cast<std::int64_t>(counts.vertices) - static_cast<std::int64_t>(counts.edges);
-        const auto cells = static_cast<std::int64_t>(counts.cells);
-        counts.euler =
-            D == 2 ? alternating + cells : alternating + static_cast<std::int64_t>(counts.facets) - cells;
+        counts.euler = euler_of<D>(counts);
         counts.components = components();
         return counted.has_value() && counts.vertices == part_.hull_points();
     }
@@ -135,26 +132,16 @@ private:
                 }
             }
         }
-        sort_out_links(links);
-        std::vector<Link> all_links;
-        for (const Array<Link>& each : ranks_.all_gather<Link>(links)) {
-            all_links.insert(all_links.end(), each.begin(), each.end());
-        }
-        return count_joined(all_links);
+        sort_out(links);
+        return count_joined(slabhull::joined(ranks_.all_gather<Link>(links)));
     }
 
-    template<class Links>
-    static void sort_out_links(Links& links) {
-        std::sort(links.begin(), links.end());
-        links.erase(std::unique(links.begin(), links.end()), links.end());
-    }
-
-    static std::size_t count_joined(const std::vector<std::array<std::uint64_t, 2>>& links) {
+    static std::size_t count_joined(const Array<std::array<std::uint64_t, 2>>& links) {
         std::vector<std::uint64_t> labels;
         for (const auto& link : links) {
             labels.push_back(link[0]);
         }
-        sort_out_links(labels);
+        sort_out(labels);
         UnionFind joined{labels.size()};
         const auto place = [&](std::uint64_t label) {
             return static_cast<Index>(std::lower_bound(labels.begin(), labels.end(), label) - labels.begin());
@@ -184,12 +171,7 @@ private:
                 to[hash(v) % to.size()].push_back(value_of(v));
             }
         }
-        Array<T> here;
-        for (Array<T>& from : ranks_.all_to_all(to)) {
-            here.insert(here.end(), from.begin(), from.end());
-            from = {};
-        }
-        return here;
+        return joined(ranks_.all_to_all(to));
     }
 
     /// Whether values are all different, on all ranks.
@@ -257,11 +239,7 @@ private:
                 there.push_back(surveyed(c));
             }
         }
-        Array<SurveyedCell> tail;
-        for (const Array<SurveyedCell>& from : ranks_.all_to_all(to)) {
-            tail.insert(tail.end(), from.begin(), from.end());
-        }
-        return tail;
+        return joined(ranks_.all_to_all(to));
     }
 
     bool measures_are_sound() {
@@ -284,11 +262,9 @@ private:
                 }
             });
         SumsByRegion<D> total;
-        for (const Array<SumsByRegion<D>>& of_rank : ranks_.all_gather<SumsByRegion<D>>(pieces)) {
-            for (const SumsByRegion<D>& piece : of_rank) {
-                for (std::size_t r = 0; r < 3; ++r) {
-                    total[r].add(piece[r]);
-                }
+        for (const SumsByRegion<D>& piece : joined(ranks_.all_gather<SumsByRegion<D>>(pieces))) {
+            for (std::size_t r = 0; r < 3; ++r) {
+                total[r].add(piece[r]);
             }
         }
         add_measures<D>({total[0].value(), total[1].value(), total[2].value()}, report_);
@@ -309,10 +285,8 @@ private:
 
     void count_patches(const std::vector<PatchCount>& mine) {
         std::map<PatchNumber, std::size_t> cells;
-        for (const Array<PatchCount>& each : ranks_.all_gather<PatchCount>(mine)) {
-            for (const PatchCount& patch : each) {
-                cells[patch.number] += patch.cells;
-            }
+        for (const PatchCount& patch : joined(ranks_.all_gather<PatchCount>(mine))) {
+            cells[patch.number] += patch.cells;
         }
         for (const auto& [number, count] : cells) {
             report_.cells_by_patch.push_back({number, count});
@@ -336,10 +310,8 @@ private:
             }
         }
         layers.clear();
-        for (const Array<Count>& each : ranks_.all_gather<Count>(mine)) {
-            for (const Count& count : each) {
-                layers[count.layer][count.end][count.time] += count.cells;
-            }
+        for (const Count& count : joined(ranks_.all_gather<Count>(mine))) {
+            layers[count.layer][count.end][count.time] += count.cells;
         }
     }
 
@@ -395,12 +367,7 @@ template<class T>
 Array<T> gather_on_first(std::span<const T> mine, Communicator& ranks) {
     std::vector<Array<T>> to(static_cast<std::size_t>(ranks.size()));
     to[0].assign(mine.begin(), mine.end());
-    Array<T> all;
-    for (Array<T>& from : ranks.all_to_all(to)) {
-        all.insert(all.end(), from.begin(), from.end());
-        from = {};
-    }
-    return all;
+    return joined(ranks.all_to_all(to));
 }
 
 /// Rows of a part with the numbers of the hull.

@@ -82,12 +82,6 @@ void for_each_claim(const HullView<D>& view, std::size_t begin, std::size_t end,
     }
 }
 
-template<class T>
-void sort_out(std::vector<T>& values) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 constexpr std::size_t cells_per_reading = 1 << 14;
 
 /// The patches of facets, without the claiming cells. Goes block by block to save memory: many layers repeat
@@ -306,10 +300,8 @@ void check_patch_columns(const HullView<D>& view, Findings& findings) {
 template<int D>
 bool patch_columns_agree(const HullView<D>& view, Communicator& ranks) {
     const FacetPatches<D> mine = patches_of_facets(view);
-    FacetPatches<D> facets;
-    for (const Array<FacetPatch<D>>& each : ranks.all_gather<FacetPatch<D>>(mine)) {
-        facets.insert(facets.end(), each.begin(), each.end());
-    }
+    const Array<FacetPatch<D>> all = joined(ranks.all_gather<FacetPatch<D>>(mine));
+    FacetPatches<D> facets(all.begin(), all.end());
     sort_out(facets);
     const bool differ = std::adjacent_find(facets.begin(), facets.end(), [](const auto& a, const auto& b) {
                             return a.tracks == b.tracks;

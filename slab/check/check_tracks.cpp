@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/check/boundary_changes.h"
 #include "slab/check/hull_view.h"
+#include "slab/check/part_exchange.h"
 #include "slab/check/part_stars.h"
 #include "slabhull/topology/spatial_mesh.h"
 
@@ -334,10 +335,7 @@ bool tracks_are_whole(const HullView<D>& view, const PartStars<D>& stars, const 
                 {track, view.time_of(static_cast<Index>(v)), use.on_side[v]});
         }
     });
-    Array<TrackUse> uses;
-    for (const Array<TrackUse>& from : ranks.all_to_all(to)) {
-        uses.insert(uses.end(), from.begin(), from.end());
-    }
+    Array<TrackUse> uses = joined(ranks.all_to_all(to));
     std::sort(uses.begin(), uses.end(), [](const TrackUse& a, const TrackUse& b) {
         return std::tie(a.track, a.time) < std::tie(b.track, b.time);
     });
@@ -369,7 +367,7 @@ struct FacetOfCap {
 
 /// The boundary facets of both caps, from all ranks.
 template<int D>
-std::vector<FacetOfCap<D>> facets_of_caps(const HullView<D>& view, Communicator& ranks) {
+Array<FacetOfCap<D>> facets_of_caps(const HullView<D>& view, Communicator& ranks) {
     std::vector<FacetOfCap<D>> mine;
     for (const Index c : cap_cells_at_side(view)) {
         for (std::size_t i = 0; i <= D; ++i) {
@@ -380,17 +378,14 @@ std::vector<FacetOfCap<D>> facets_of_caps(const HullView<D>& view, Communicator&
             }
         }
     }
-    std::vector<FacetOfCap<D>> all;
-    for (const Array<FacetOfCap<D>>& each : ranks.all_gather<FacetOfCap<D>>(mine)) {
-        all.insert(all.end(), each.begin(), each.end());
-    }
+    Array<FacetOfCap<D>> all = joined(ranks.all_gather<FacetOfCap<D>>(mine));
     std::sort(all.begin(), all.end());
     return all;
 }
 
 /// Whether every facet has tracks, and those of the terminating cap are those of the initial one.
 template<int D>
-bool are_images(const std::vector<FacetOfCap<D>>& facets) {
+bool are_images(const Array<FacetOfCap<D>>& facets) {
     const auto terminating =
         std::find_if(facets.begin(), facets.end(), [](const FacetOfCap<D>& facet) { return facet.cap == 1; });
     return std::all_of(facets.begin(), facets.end(),
@@ -404,7 +399,7 @@ bool are_images(const std::vector<FacetOfCap<D>>& facets) {
 /// Whether no vertex inside a cap is on a track of the boundary.
 template<int D>
 bool none_is_stray(const HullView<D>& view, const PartStars<D>& stars, const VertexUse& use,
-                   const std::vector<FacetOfCap<D>>& facets) {
+                   const Array<FacetOfCap<D>>& facets) {
     std::vector<TrackId> boundary;
     for (const FacetOfCap<D>& facet : facets) {
         boundary.insert(boundary.end(), facet.tracks.begin(), facet.tracks.end());
@@ -424,7 +419,7 @@ template<int D>
 bool tracks_are_sound(const HullView<D>& view, const PartStars<D>& stars, Communicator& ranks) {
     const VertexUse use = use_of_vertices(stars);
     const bool whole = tracks_are_whole(view, stars, use, ranks);
-    const std::vector<FacetOfCap<D>> facets = facets_of_caps(view, ranks);
+    const Array<FacetOfCap<D>> facets = facets_of_caps(view, ranks);
     const bool sound = whole && are_images(facets) && none_is_stray(view, stars, use, facets);
     return ranks.min(sound ? 1 : 0) == 1;
 }

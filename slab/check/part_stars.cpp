@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/check/part_stars.h"
 
+#include "slab/check/part_exchange.h"
 #include "slabhull/core/index.h"
 #include "slabhull/slab/hull_part.h"
 
@@ -9,36 +10,6 @@
 namespace slabhull {
 
 namespace {
-
-/// The owner of each of a part's points: each point's home is told who uses it, and answers.
-template<int D>
-Array<std::int32_t> owners_of_points(const HullPart<D>& part, Communicator& ranks) {
-    const auto count = static_cast<std::size_t>(ranks.size());
-    std::vector<Array<std::uint64_t>> used(count);
-    each_point_of(part, [&](std::size_t, std::size_t number) {
-        used[home_of_point(number, part.hull_points(), count)].push_back(number);
-    });
-    const std::vector<Array<std::uint64_t>> asked = ranks.all_to_all(used);
-    const std::size_t width = part.hull_points() / count + 1;
-    const std::size_t begin = static_cast<std::size_t>(ranks.rank()) * width;
-    Array<std::int32_t> lowest(width, -1);
-    for (std::size_t r = count; r-- > 0;) {
-        for (const std::uint64_t number : asked[r]) {
-            lowest[number - begin] = static_cast<std::int32_t>(r);
-        }
-    }
-    std::vector<Array<std::int32_t>> answers(count);
-    for (std::size_t r = 0; r < count; ++r) {
-        for (const std::uint64_t number : asked[r]) {
-            answers[r].push_back(lowest[number - begin]);
-        }
-    }
-    Array<std::int32_t> owners;
-    for (const Array<std::int32_t>& of_home : ranks.all_to_all(answers)) { // homes are in the order of points
-        owners.insert(owners.end(), of_home.begin(), of_home.end());
-    }
-    return owners;
-}
 
 /// A cell as another rank is told of it, in the numbers of the hull.
 template<int D>
@@ -58,7 +29,8 @@ public:
     }
 
     PartStars<D> run() {
-        const Array<std::int32_t> owners = owners_of_points(part_, ranks_);
+        const auto owners =
+            lowest_at_points(part_, ranks_, Array<std::int32_t>(part_.points.size(), ranks_.rank()));
         PartStars<D> stars;
         stars.owned.resize(owners.size());
         std::transform(owners.begin(), owners.end(), stars.owned.begin(),
@@ -85,9 +57,7 @@ private:
                 }
             }
         }
-        for (const Array<GhostCell<D>>& from : ranks_.all_to_all(to)) { // ranks are in the order of cells
-            ghosts_.insert(ghosts_.end(), from.begin(), from.end());
-        }
+        ghosts_ = joined(ranks_.all_to_all(to)); // ranks are in the order of cells
         checked_index(part_.cells.size() + ghosts_.size(), "cells of a part");
     }
 
@@ -111,8 +81,7 @@ private:
                 }
             }
         }
-        std::sort(others_.begin(), others_.end());
-        others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+        sort_out(others_);
         stars.owned.resize(part_.points.size() + others_.size(), 0);
     }
 

@@ -5,7 +5,6 @@
 #include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/progress.h"
-#include "slabhull/geometry/size_field.h"
 
 #include <algorithm>
 #include <atomic>
@@ -120,9 +119,8 @@ private:
         if (thread_count() < 2) {
             return 0;
         }
-        const std::vector<double> spacing = boundary_.mean_edges(places_.points);
-        const SizeField<D> sizes{places_.points, spacing, settings_.cap.grading};
-        const double bytes = bytes_per_cap_cell * cells_per_cube<D> * sizes.cube_count();
+        const double bytes =
+            bytes_per_cap_cell * most_cap_cells<D>(boundary_, places_.points, settings_.cap.grading);
         const double fit = share_of_memory * static_cast<double>(available_memory()) / bytes;
         return static_cast<std::size_t>(std::min(fit, static_cast<double>(thread_count())));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/stitch.h"
 
+#include "core/pieces.h"
 #include "slab/stitch/cap_boundary.h"
 #include "slab/stitch/prism_choice.h"
 #include "slab/stitch/prism_graph.h"
@@ -361,8 +362,7 @@ private:
                 }
             }
         }
-        std::sort(part.outside.begin(), part.outside.end());
-        part.outside.erase(std::unique(part.outside.begin(), part.outside.end()), part.outside.end());
+        sort_out(part.outside);
         checked_index(part.cells.size() + part.outside.size(), "cells of a part");
         for_each_index(part.neighbors.size(), items_per_step, [&](std::size_t c) {
             for (Index& neighbor : part.neighbors[c]) {
@@ -472,9 +472,8 @@ Hull<D> stitch(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> ter
 }
 
 HullRange range_of_part(std::size_t cells, std::size_t part, std::size_t parts) {
-    const std::size_t length = cells / parts;
-    const std::size_t longer = cells % parts; // the first ones, by one
-    return {length * part + std::min(part, longer), length + (part < longer ? 1 : 0)};
+    const std::size_t begin = begin_of_part(cells, part, parts);
+    return {begin, begin_of_part(cells, part + 1, parts) - begin};
 }
 
 template<int D>

@@ -2,6 +2,7 @@
 #include "slabhull/core/child_process.h"
 
 #include "core/no_more_files.h"
+#include "core/process_state.h"
 
 #include "slabhull/core/array.h"
 #include "slabhull/core/error.h"
@@ -266,19 +267,7 @@ TEST_CASE("a child does not outlive its parent", "[child]") {
         },
         [&](const Receive& receive) { return receive(&grandchild, sizeof grandchild); });
     REQUIRE(grandchild > 0);
-    // whoever adopts it may take a moment to bury it; a zombie does no work
-    bool gone = false;
-    for (int tries = 0; tries < 100 && !gone; ++tries) {
-        usleep(10'000);
-        const std::string state = [&] {
-            std::ifstream stat{"/proc/" + std::to_string(grandchild) + "/stat"};
-            std::string id, name, letter;
-            stat >> id >> name >> letter;
-            return letter;
-        }();
-        gone = state.empty() || state == "Z";
-    }
-    CHECK(gone);
+    CHECK(ends_soon(grandchild));
 }
 
 TEST_CASE("a child can allocate, whatever other threads were allocating when it was made", "[child]") {

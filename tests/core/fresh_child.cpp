@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/process_state.h"
+
 #include "slabhull/core/array.h"
 #include "slabhull/core/child_process.h"
 #include "slabhull/core/progress.h"
@@ -78,21 +80,6 @@ void count_files(std::span<const std::byte>, const Send& send) {
     const std::filesystem::directory_iterator files{"/proc/self/fd"};
     const auto open = std::distance(begin(files), end(files));
     send(&open, sizeof open);
-}
-
-/// Whether a process works: not when it is gone, or waits to be buried.
-bool works(pid_t process) {
-    std::ifstream stat{"/proc/" + std::to_string(process) + "/stat"};
-    std::string id, name, state;
-    stat >> id >> name >> state;
-    return !state.empty() && state != "Z";
-}
-
-bool ends_soon(pid_t process) {
-    for (int tries = 0; tries < 200 && works(process); ++tries) {
-        usleep(10'000);
-    }
-    return !works(process);
 }
 
 } // namespace

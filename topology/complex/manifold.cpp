@@ -82,7 +82,7 @@ public:
         examine_facets();
         examine_vertices();
         report_.counts.components = components();
-        report_.counts.euler = euler();
+        report_.counts.euler = euler_of<D>(report_.counts);
         std::stable_sort(report_.findings.begin(), report_.findings.end(),
                          [](const ManifoldFinding& a, const ManifoldFinding& b) { return a.what < b.what; });
         return std::move(report_);
@@ -423,13 +423,6 @@ private:
             }
         });
         return joined.count_sets() - (vertex_count_ - report_.counts.vertices);
-    }
-
-    std::int64_t euler() const {
-        const ManifoldCounts& n = report_.counts;
-        const auto alternating = static_cast<std::int64_t>(n.vertices) - static_cast<std::int64_t>(n.edges);
-        const auto cells = static_cast<std::int64_t>(n.cells);
-        return D == 2 ? alternating + cells : alternating + static_cast<std::int64_t>(n.facets) - cells;
     }
 
     std::span<const Simplex<D>> cells_;

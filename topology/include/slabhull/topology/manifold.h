@@ -43,6 +43,15 @@ struct ManifoldCounts {
     std::int64_t euler = 0;     ///< Euler characteristic
 };
 
+/// The Euler characteristic of a D-manifold with so many vertices, edges, facets and cells.
+template<int D>
+std::int64_t euler_of(const ManifoldCounts& counts) {
+    const auto alternating =
+        static_cast<std::int64_t>(counts.vertices) - static_cast<std::int64_t>(counts.edges);
+    const auto cells = static_cast<std::int64_t>(counts.cells);
+    return D == 2 ? alternating + cells : alternating + static_cast<std::int64_t>(counts.facets) - cells;
+}
+
 struct ManifoldReport {
     ManifoldCounts counts;
     /// How many of each kind there are, whatever was kept.
