@@ -38,11 +38,6 @@ using namespace slabhull;
 
 namespace {
 
-const auto receive_nothing = [](const Receive& receive) {
-    char byte = 0;
-    return receive(&byte, 1);
-};
-
 long open_files() {
     const std::filesystem::directory_iterator files{"/proc/self/fd"};
     return std::distance(begin(files), end(files));

@@ -34,11 +34,6 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values) {
     return std::as_bytes(std::span{values});
 }
 
-const auto receive_nothing = [](const Receive& receive) {
-    char byte = 0;
-    return receive(&byte, 1);
-};
-
 /// Sends the request back, in reverse.
 void reverse(std::span<const std::byte> request, const Send& send) {
     std::vector<std::byte> back(request.rbegin(), request.rend());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/core/child_process.h"
+
 #include <fstream>
 #include <string>
 
@@ -8,6 +10,12 @@
 #include <unistd.h>
 
 namespace slabhull {
+
+/// Waits for a byte of a child that sends none: whether one came.
+inline bool receive_nothing(const Receive& receive) {
+    char byte = 0;
+    return receive(&byte, 1);
+}
 
 /// Whether a process works: not when it is gone, or waits to be buried.
 inline bool works(pid_t process) {

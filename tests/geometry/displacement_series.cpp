@@ -14,11 +14,10 @@
 #include <vector>
 
 using namespace slabhull;
+using tests::not_a_number;
 using tests::random_points;
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Tracks 10, 13, 16 ... that start at random points and are displaced by displacement(point, t).
 template<int D, class Displacement>
@@ -73,9 +72,9 @@ double error_between_rows(const std::vector<double>& times, TimeInterpolation in
     const auto rows = scaled_rows<D>(times, 5, f);
     const auto motion = displacement_series<D>(rows, interpolation);
     double worst = 0;
-    constexpr int samples = 4999;
-    for (int s = 0; s <= samples; ++s) {
-        const double t = times.front() + (times.back() - times.front()) * s / samples;
+    constexpr int times_asked = 4999;
+    for (int s = 0; s <= times_asked; ++s) {
+        const double t = times.front() + (times.back() - times.front()) * s / times_asked;
         const auto x = positions_at<D>(*motion, rows.tracks, t);
         for (std::size_t i = 0; i < x.size(); ++i) {
             for (std::size_t k = 0; k < D; ++k) {

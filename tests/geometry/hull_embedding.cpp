@@ -53,9 +53,9 @@ struct Family {
 };
 
 template<int D>
-class Pairs {
+class RandomPairs {
 public:
-    Pairs(const Family& family, std::size_t shared, unsigned seed)
+    RandomPairs(const Family& family, std::size_t shared, unsigned seed)
         : family_{family}, shared_{shared}, random_{seed} {}
 
     /// The next pair of simplices that have extent.
@@ -113,7 +113,7 @@ void for_each_pair(int of_each, unsigned seed, const std::function<void(const Pa
           Family{"in one wall", 3, 0}, Family{"touching along a hyperplane", 2, -1, true}}) {
         for (std::size_t shared = 0; shared <= D; ++shared) {
             CAPTURE(family.name, shared);
-            Pairs<D> pairs{family, shared, seed};
+            RandomPairs<D> pairs{family, shared, seed};
             for (int k = 0; k < rounds(of_each); ++k) {
                 visit(pairs.next());
             }

@@ -17,14 +17,13 @@
 
 using namespace slabhull;
 using tests::corner;
+using tests::not_a_number;
 using tests::random_points;
 using tests::velocity_at;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
+using std::numbers::pi;
 /// One of each kind that has a closed form.
 template<int D>
 std::vector<MotionPointer<D>> closed_forms() {

@@ -19,7 +19,7 @@ using tests::random_points;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double rounding = std::numeric_limits<double>::epsilon();
 
 /// The ellipsoid with semi-axes (1, 3, 2) by longitude and latitude: a seam, and a pole at each end.

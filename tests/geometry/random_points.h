@@ -5,10 +5,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <random>
 #include <vector>
 
 namespace slabhull::tests {
+
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// `count` points with coordinates in [-reach, reach), the same in every run and with every standard library.
 template<int D>

@@ -22,7 +22,7 @@ using tests::velocity_at;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Where a body is in truth: Eigen's rotations are an implementation apart from ours.
 struct Place {
@@ -50,11 +50,11 @@ Place tumbling(double t) {
     return {wobble(t), about(0, roll) * about(1, pitch) * about(2, yaw)};
 }
 
-const Point<3> centre{0.5, -1, 2};
+const Point<3> pivot{0.5, -1, 2};
 const Point<3> no_axis{};
 
 Point<3> placed(const Place& place, const Point<3>& x) {
-    const Eigen::Vector3d c{centre[0], centre[1], centre[2]};
+    const Eigen::Vector3d c{pivot[0], pivot[1], pivot[2]};
     const Eigen::Vector3d y = c + place.shift + place.turn * (Eigen::Vector3d{x[0], x[1], x[2]} - c);
     return {y[0], y[1], y[2]};
 }
@@ -114,8 +114,8 @@ std::vector<MotionPointer<D>> specimens(int count) {
         no_turn.angles.clear();
         RigidTable<3> no_shift = by_quaternions(count);
         no_shift.shifts.clear();
-        return {rigid_table<3>(by_angles(count), centre), rigid_table<3>(by_quaternions(count), centre),
-                rigid_table<3>(no_turn, centre), rigid_table<3>(no_shift, centre)};
+        return {rigid_table<3>(by_angles(count), pivot), rigid_table<3>(by_quaternions(count), pivot),
+                rigid_table<3>(no_turn, pivot), rigid_table<3>(no_shift, pivot)};
     }
 }
 
@@ -151,7 +151,7 @@ std::string refusal(const RigidTable<D>& table) {
 
 TEST_CASE("a rigid table is exact at its rows") {
     for (const auto& table : {by_angles(12), by_quaternions(12)}) {
-        const auto motion = rigid_table<3>(table, centre);
+        const auto motion = rigid_table<3>(table, pivot);
         for (const double t : table.times) {
             CHECK(largest_error(*motion, t) < 1e-14);
         }
@@ -160,8 +160,8 @@ TEST_CASE("a rigid table is exact at its rows") {
 
 TEST_CASE("between the rows angles and quaternions alike have order 4") {
     for (const auto& table : {by_angles, by_quaternions}) {
-        const double coarse = largest_error(*rigid_table<3>(table(40), centre));
-        const double fine = largest_error(*rigid_table<3>(table(80), centre));
+        const double coarse = largest_error(*rigid_table<3>(table(40), pivot));
+        const double fine = largest_error(*rigid_table<3>(table(80), pivot));
         CAPTURE(coarse, fine);
         CHECK(std::log2(coarse / fine) == Approx(4).margin(0.35));
         CHECK(fine < 1e-4);
@@ -265,12 +265,12 @@ TEST_CASE("angles of several turns between two rows are turned through") {
 
 TEST_CASE("a rotation by a table of evenly growing angles is the rotation with that rate") {
     const Point<3> axis{1, 2, -2};
-    const auto by_rate = rotation<3>(axis, centre, 1.7);
+    const auto by_rate = rotation<3>(axis, pivot, 1.7);
     AngleTable table{instants(6), {}};
     for (const double t : table.times) {
         table.angles.push_back(1.7 * t - 40);
     }
-    const auto by_table = rotation<3>(axis, centre, table);
+    const auto by_table = rotation<3>(axis, pivot, table);
     for (const Point<3>& x : random_points<3>(20, 3)) {
         CHECK(distance((*by_table->map(0.3, 1.9))(x), (*by_rate->map(0.3, 1.9))(x)) < 1e-12);
         CHECK(distance(velocity_at<3>(*by_table, x, 1.1), velocity_at<3>(*by_rate, x, 1.1)) < 1e-12);

@@ -19,7 +19,7 @@ using namespace slabhull;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Measure of the domain that a closed, outward oriented surface bounds.
 double enclosed(const Surface<2>& surface) {

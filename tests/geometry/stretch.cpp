@@ -20,11 +20,10 @@
 #include <vector>
 
 using namespace slabhull;
+using tests::not_a_number;
 using tests::random_points;
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Numbers the facets of a surface by `patch_of(mean of their corners)`.
 template<int D, class PatchOf>

@@ -1,32 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/scratch.h"
+#include "io/soups.h"
 #include "io/specimens.h"
 #include "slabhull/io/files.h"
 
 #include <catch2/catch.hpp>
 
 using namespace slabhull;
+using soups::says;
 
 namespace {
 
-const std::string small =
+const std::string small_avro =
     "{ \"dim\": 4, \"number\":3, \"nb_ghost\":0, \"type\":\"simplex\",\n\"vertices\":\n [\n  0, 0, 0, 0.5,\n"
     "  1, 0, 0, 0.5, 0,1,0,1e-3,\n 0, 0, 1, -2 ],\n\"normals\": [[1, {\"a]\\\"\": \"}\"}], true],\n"
     "\"elements\":\n[ 0, 1, 2, 3 ]\n}\n";
 
-std::string refusal_with(const std::string& from, const std::string& to) {
-    return scratch::refusal(io::read_avro, "a.avro", scratch::replaced(small, from, to));
-}
-
-void says(const std::string& message, const std::string& text) {
-    CHECK_THAT(message, Catch::Contains(text));
+std::string avro_refusal(const std::string& from, const std::string& to) {
+    return scratch::refusal(io::read_avro, "a.avro", scratch::replaced(small_avro, from, to));
 }
 
 } // namespace
 
 TEST_CASE("An avro mesh is read, the fourth coordinate as time, other keys passed over", "[io]") {
     const scratch::Folder folder;
-    const io::Soup soup = io::read_avro(scratch::put(folder / "a.avro", small));
+    const io::Soup soup = io::read_avro(scratch::put(folder / "a.avro", small_avro));
     CHECK(soup.points == Array<Point<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
     CHECK(soup.simplices[3].vertices == Array<Index>{0, 1, 2, 3});
     REQUIRE(soup.find_point_data("t") != nullptr);
@@ -72,38 +70,39 @@ TEST_CASE("Tetrahedra without times are written with three coordinates", "[io]")
 }
 
 TEST_CASE("A damaged avro mesh is refused with line and entity", "[io]") {
-    says(refusal_with("{ \"dim\"", "\"dim\""), "line 1: '{' was expected at the start");
-    says(refusal_with("\"dim\": 4", "\"dim\": 5"), "line 1: dimension 2, 3 or 4 was expected");
-    says(refusal_with("\"dim\": 4", "\"dim\": 3"), "line 3: 16 coordinates are not 3 for each vertex");
-    says(refusal_with("\"number\":3", "\"number\":4"), "simplices of dimension 1, 2 or 3");
-    says(refusal_with("\"number\":3", "\"number\":2"),
+    says(avro_refusal("{ \"dim\"", "\"dim\""), "line 1: '{' was expected at the start");
+    says(avro_refusal("\"dim\": 4", "\"dim\": 5"), "line 1: dimension 2, 3 or 4 was expected");
+    says(avro_refusal("\"dim\": 4", "\"dim\": 3"), "line 3: 16 coordinates are not 3 for each vertex");
+    says(avro_refusal("\"number\":3", "\"number\":4"), "simplices of dimension 1, 2 or 3");
+    says(avro_refusal("\"number\":3", "\"number\":2"),
          "line 9: 4 vertices' numbers are not 3 for each element");
-    says(refusal_with("\"nb_ghost\":0", "\"nb_ghost\":1"), "ghost vertices are not read");
-    says(refusal_with("simplex", "polytope"), "only the type \"simplex\"");
-    says(refusal_with("1e-3", "nan"), "line 3: vertex 2 has a coordinate that is not a finite number");
-    says(refusal_with("1e-3", "1e-3x"), "line 5");
-    says(refusal_with("0, 1, 2, 3 ]\n", "0, 1, 2, 4 ]\n"),
+    says(avro_refusal("\"nb_ghost\":0", "\"nb_ghost\":1"), "ghost vertices are not read");
+    says(avro_refusal("simplex", "polytope"), "only the type \"simplex\"");
+    says(avro_refusal("1e-3", "nan"), "line 3: vertex 2 has a coordinate that is not a finite number");
+    says(avro_refusal("1e-3", "1e-3x"), "line 5");
+    says(avro_refusal("0, 1, 2, 3 ]\n", "0, 1, 2, 4 ]\n"),
          "line 9: element 0 has the vertex 4, but there are 4");
-    says(refusal_with("0, 1, 2, 3 ]\n", "0, 1, 2, -3 ]\n"), "was expected, not \"-3\"");
-    says(refusal_with("0, 1, 2, 3 ]\n", "0, 1, 2, 1000000000000000000 ]\n"), "line 9");
-    says(refusal_with("\"elements\"", "\"vertices\""), "\"vertices\" appears twice");
-    says(refusal_with("\"elements\"", "\"Elements\""), "there is no \"elements\"");
-    says(refusal_with(" ]\n}\n", " ]\n} ]\n"), "the end of the file was expected");
+    says(avro_refusal("0, 1, 2, 3 ]\n", "0, 1, 2, -3 ]\n"), "was expected, not \"-3\"");
+    says(avro_refusal("0, 1, 2, 3 ]\n", "0, 1, 2, 1000000000000000000 ]\n"), "line 9");
+    says(avro_refusal("\"elements\"", "\"vertices\""), "\"vertices\" appears twice");
+    says(avro_refusal("\"elements\"", "\"Elements\""), "there is no \"elements\"");
+    says(avro_refusal(" ]\n}\n", " ]\n} ]\n"), "the end of the file was expected");
 }
 
 TEST_CASE("Brackets nested a million deep are passed over or refused, without a deep stack", "[io]") {
     const std::size_t deep = 1000000;
-    CHECK(refusal_with("true]", std::string(deep, '[') + std::string(deep, ']') + "]") == "");
-    says(refusal_with("true]", std::string(deep, '[')), "the file ends within a value");
+    CHECK(avro_refusal("true]", std::string(deep, '[') + std::string(deep, ']') + "]") == "");
+    says(avro_refusal("true]", std::string(deep, '[')), "the file ends within a value");
 }
 
 TEST_CASE("An avro mesh torn anywhere, or damaged at random, never does more than be refused", "[io]") {
     const scratch::Folder folder;
-    for (std::size_t size = 0; size + 1 < small.size(); ++size) {
-        CHECK(scratch::refusal(io::read_avro, scratch::put(folder / "a.avro", small.substr(0, size))) != "");
+    for (std::size_t size = 0; size + 1 < small_avro.size(); ++size) {
+        CHECK(scratch::refusal(io::read_avro, scratch::put(folder / "a.avro", small_avro.substr(0, size))) !=
+              "");
     }
     io::write_avro(folder / "b.avro", specimens::Grid(3, 2).columns());
     CHECK(scratch::survive_damage(io::read_avro, scratch::bytes_of(folder / "b.avro"), folder / "a.avro",
                                   5000) > 0);
-    CHECK(scratch::survive_damage(io::read_avro, small, folder / "a.avro", 5000) > 0);
+    CHECK(scratch::survive_damage(io::read_avro, small_avro, folder / "a.avro", 5000) > 0);
 }

@@ -17,7 +17,7 @@ io::CsvTable table(const std::string& text) {
     return io::read_motion_table(scratch::put(folder / "table.csv", text));
 }
 
-std::string refusal(const std::string& text) {
+std::string table_refusal(const std::string& text) {
     return scratch::refusal(io::read_motion_table, "table.csv", text);
 }
 
@@ -68,35 +68,36 @@ TEST_CASE("OpenFOAM's list of six degrees of freedom is the table of its rows", 
 }
 
 TEST_CASE("A damaged table is refused with its line and column", "[io]") {
-    CHECK_THAT(refusal(""), Contains("table.csv: line 1") && Contains("empty"));
-    CHECK_THAT(refusal("\n\n#\n"), Contains("empty"));
-    CHECK_THAT(refusal("0,1,2\n3,4,5\n"), Contains("line 1") && Contains("column 1") && Contains("\"0\""));
-    CHECK_THAT(refusal("time,,x\n"), Contains("line 1") && Contains("column 2"));
-    CHECK_THAT(refusal("time,x,x\n"), Contains("two columns \"x\""));
-    CHECK_THAT(refusal("time,x\n0,1\n1,abc\n"),
+    CHECK_THAT(table_refusal(""), Contains("table.csv: line 1") && Contains("empty"));
+    CHECK_THAT(table_refusal("\n\n#\n"), Contains("empty"));
+    CHECK_THAT(table_refusal("0,1,2\n3,4,5\n"),
+               Contains("line 1") && Contains("column 1") && Contains("\"0\""));
+    CHECK_THAT(table_refusal("time,,x\n"), Contains("line 1") && Contains("column 2"));
+    CHECK_THAT(table_refusal("time,x,x\n"), Contains("two columns \"x\""));
+    CHECK_THAT(table_refusal("time,x\n0,1\n1,abc\n"),
                Contains("line 3") && Contains("\"x\"") && Contains("\"abc\""));
-    CHECK_THAT(refusal("time,x\n0,1\n1,\n"), Contains("line 3") && Contains("\"x\""));
-    CHECK_THAT(refusal("time,x,y\n0,,1\n"), Contains("line 2") && Contains("\"x\""));
+    CHECK_THAT(table_refusal("time,x\n0,1\n1,\n"), Contains("line 3") && Contains("\"x\""));
+    CHECK_THAT(table_refusal("time,x,y\n0,,1\n"), Contains("line 2") && Contains("\"x\""));
     for (const char* number :
          {"nan", "inf", "-infinity", "1e999", "0x10", "1.5.2", "1,5", "--1", "+-1", "1e", "1 2"}) {
         CAPTURE(number);
-        CHECK_THAT(refusal("time,x\n0," + std::string{number} + "\n"), Contains("table.csv: line 2"));
+        CHECK_THAT(table_refusal("time,x\n0," + std::string{number} + "\n"), Contains("table.csv: line 2"));
     }
-    CHECK_THAT(refusal("time,x,y\n0,1,2\n1,2"),
+    CHECK_THAT(table_refusal("time,x,y\n0,1,2\n1,2"),
                Contains("line 3") && Contains("\"y\"") && Contains("2 values"));
-    CHECK_THAT(refusal("time,x\n0,1,2\n"), Contains("line 2") && Contains("more than the 2 values"));
+    CHECK_THAT(table_refusal("time,x\n0,1,2\n"), Contains("line 2") && Contains("more than the 2 values"));
     CHECK_THAT(scratch::refusal(io::read_csv, "/nowhere/at.all"), Contains("No such file"));
 }
 
 TEST_CASE("A damaged list of OpenFOAM's is refused with its line", "[io]") {
-    CHECK_THAT(refusal("3" + foam.substr(1)), Contains("2 rows, where 3 are announced"));
-    CHECK_THAT(refusal("(\n(0 ((1 2 3) (1 2)))\n)"), Contains("line 2") && Contains("\"yaw_deg\""));
-    CHECK_THAT(refusal("(\n(0 ((1 2 3) (1 2 3 4)))\n)"), Contains("line 2") && Contains("\"4\""));
-    CHECK_THAT(refusal("(\n(0 ((1 2 nan) (1 2 3)))\n)"), Contains("line 2") && Contains("\"z\""));
-    CHECK_THAT(refusal("((0 ((1 2 3) (1 2 3)))) more"), Contains("\"more\""));
-    CHECK_THAT(refusal("(0 1)"), Contains("line 1"));
+    CHECK_THAT(table_refusal("3" + foam.substr(1)), Contains("2 rows, where 3 are announced"));
+    CHECK_THAT(table_refusal("(\n(0 ((1 2 3) (1 2)))\n)"), Contains("line 2") && Contains("\"yaw_deg\""));
+    CHECK_THAT(table_refusal("(\n(0 ((1 2 3) (1 2 3 4)))\n)"), Contains("line 2") && Contains("\"4\""));
+    CHECK_THAT(table_refusal("(\n(0 ((1 2 nan) (1 2 3)))\n)"), Contains("line 2") && Contains("\"z\""));
+    CHECK_THAT(table_refusal("((0 ((1 2 3) (1 2 3)))) more"), Contains("\"more\""));
+    CHECK_THAT(table_refusal("(0 1)"), Contains("line 1"));
     for (std::size_t length = 2; length < foam.size() - 1; ++length) { // torn anywhere
-        CHECK_THAT(refusal(foam.substr(0, length)), Contains("table.csv: line"));
+        CHECK_THAT(table_refusal(foam.substr(0, length)), Contains("table.csv: line"));
     }
 }
 
@@ -122,7 +123,7 @@ TEST_CASE("Garbage of any size is refused with a short message fit for a termina
          {noise, "time,x\n" + noise, "(" + noise, std::string(20'000'000, ','), std::string(20'000'000, 'a'),
           std::string(20'000'000, '('), std::string(20'000'000, '\0'),
           "a" + std::string(20'000'000, ' ') + "\n\x1b[2J"}) {
-        const std::string message = refusal(text);
+        const std::string message = table_refusal(text);
         CHECK_THAT(message, Contains("table.csv: line"));
         CHECK(message.size() < 300);
         CHECK(std::all_of(message.begin(), message.end(),
@@ -132,5 +133,5 @@ TEST_CASE("Garbage of any size is refused with a short message fit for a termina
     for (int i = 1; i <= 1000; ++i) {
         wide += ",c" + std::to_string(i);
     }
-    CHECK_THAT(refusal(wide + "\n"), Contains("1000 columns at most"));
+    CHECK_THAT(table_refusal(wide + "\n"), Contains("1000 columns at most"));
 }

@@ -14,7 +14,7 @@ io::Soup curve(const std::string& text) {
     return io::read_curve(scratch::put(folder / "curve.dat", text));
 }
 
-std::string refusal(const std::string& text) {
+std::string curve_refusal(const std::string& text) {
     return scratch::refusal(io::read_curve, "curve.dat", text);
 }
 
@@ -41,14 +41,15 @@ TEST_CASE("Titles, comments, blank lines, line ends and a repeated last point do
 }
 
 TEST_CASE("A damaged curve file is refused with its line", "[io]") {
-    CHECK_THAT(refusal("0 0\n1 x\n0 1\n"), Catch::Contains("curve.dat: line 2") && Catch::Contains("\"x\""));
-    CHECK_THAT(refusal("0 0\n1\n0 1\n"), Catch::Contains("line 2"));
-    CHECK_THAT(refusal("0 0\n1 2 3\n0 1\n"), Catch::Contains("line 2"));
-    CHECK_THAT(refusal("title\n0 0\n1 nan\n0 1\n"), Catch::Contains("line 3"));
-    CHECK_THAT(refusal("0 0\n1 1\nnan 1\n"), Catch::Contains("line 3"));
-    CHECK_THAT(refusal("0 0\n1 1e999\n0 1\n"), Catch::Contains("line 2"));
-    CHECK_THAT(refusal("0 0\n1 0\n0 0\n"), Catch::Contains("2 points"));
-    CHECK_THAT(refusal(""), Catch::Contains("0 points"));
+    CHECK_THAT(curve_refusal("0 0\n1 x\n0 1\n"),
+               Catch::Contains("curve.dat: line 2") && Catch::Contains("\"x\""));
+    CHECK_THAT(curve_refusal("0 0\n1\n0 1\n"), Catch::Contains("line 2"));
+    CHECK_THAT(curve_refusal("0 0\n1 2 3\n0 1\n"), Catch::Contains("line 2"));
+    CHECK_THAT(curve_refusal("title\n0 0\n1 nan\n0 1\n"), Catch::Contains("line 3"));
+    CHECK_THAT(curve_refusal("0 0\n1 1\nnan 1\n"), Catch::Contains("line 3"));
+    CHECK_THAT(curve_refusal("0 0\n1 1e999\n0 1\n"), Catch::Contains("line 2"));
+    CHECK_THAT(curve_refusal("0 0\n1 0\n0 0\n"), Catch::Contains("2 points"));
+    CHECK_THAT(curve_refusal(""), Catch::Contains("0 points"));
     CHECK_THAT(scratch::refusal(io::read_curve, "/nowhere/at.all"), Catch::Contains("No such file"));
 }
 
@@ -71,9 +72,9 @@ TEST_CASE("An airfoil in Lednicer's order is one curve around both sides", "[io]
 }
 
 TEST_CASE("What only looks like Lednicer's order is told so, and a polygon stays one", "[io]") {
-    CHECK_THAT(refusal(scratch::replaced(lednicer, "4.  3.", "4.  4.")),
+    CHECK_THAT(curve_refusal(scratch::replaced(lednicer, "4.  3.", "4.  4.")),
                Catch::Contains("Lednicer") && Catch::Contains("7 points follow"));
-    CHECK_THAT(refusal(scratch::replaced(lednicer, " 0 0\n 0.5", " 0.9 0\n 0.5")),
+    CHECK_THAT(curve_refusal(scratch::replaced(lednicer, " 0 0\n 0.5", " 0.9 0\n 0.5")),
                Catch::Contains("do not start at one place"));
     CHECK(curve("10 10\n11 10\n11 11\n10.5 12\n10 11\n").points.size() == 5);
     CHECK(curve("3 2\n0 4\n-3 4\n-6 0\n0 -5\n3 -5\n").points.size() == 6);

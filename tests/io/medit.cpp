@@ -8,20 +8,16 @@
 
 using namespace slabhull;
 using scratch::fixture;
+using soups::says;
 
 namespace {
 
-const std::string small = "MeshVersionFormatted 2\n# a comment\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n"
-                          "0 1 0 0\n0 0 1 0\nTriangles\n1\n1 2 3 5\nTetrahedra\n1\n1 2 3 4 7\nEnd\n";
+const std::string small_medit =
+    "MeshVersionFormatted 2\n# a comment\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n"
+    "0 1 0 0\n0 0 1 0\nTriangles\n1\n1 2 3 5\nTetrahedra\n1\n1 2 3 4 7\nEnd\n";
 
-std::string refusal_with(const std::string& from, const std::string& to) {
-    return scratch::refusal(io::read_medit, "a.mesh", scratch::replaced(small, from, to));
-}
-
-bool says(const std::string& message, const std::string& text) {
-    INFO(message);
-    CHECK(message.find(text) != std::string::npos);
-    return message.find(text) != std::string::npos;
+std::string medit_refusal(const std::string& from, const std::string& to) {
+    return scratch::refusal(io::read_medit, "a.mesh", scratch::replaced(small_medit, from, to));
 }
 
 /// Checks that what the columns say is what the soup says, but for time and names.
@@ -115,35 +111,37 @@ TEST_CASE("Two dimensions, comments between rows and passed sections are underst
 }
 
 TEST_CASE("A damaged Medit file is refused with line and entity", "[io]") {
-    says(refusal_with("MeshVersionFormatted", "MeshVersion"), "line 1: this is no Medit file");
-    says(refusal_with("Dimension 3", "Dimension 5"), "line 3: dimension 2, 3 or 4 was expected");
-    says(refusal_with("Vertices\n4", "Vertices\n1000000000000000000"),
+    says(medit_refusal("MeshVersionFormatted", "MeshVersion"), "line 1: this is no Medit file");
+    says(medit_refusal("Dimension 3", "Dimension 5"), "line 3: dimension 2, 3 or 4 was expected");
+    says(medit_refusal("Vertices\n4", "Vertices\n1000000000000000000"),
          "line 5: 1000000000000000000 vertices are claimed");
-    says(refusal_with("Tetrahedra\n1\n", "Tetrahedra\n1000000000000000000\n"),
+    says(medit_refusal("Tetrahedra\n1\n", "Tetrahedra\n1000000000000000000\n"),
          "1000000000000000000 Tetrahedra are claimed");
-    says(refusal_with("1 0 0 0", "1 nan 0 0"), "line 7: vertex 2 has a coordinate that is not a finite");
-    says(refusal_with("1 0 0 0", "1 0x 0 0"), "line 7: a vertex's coordinates was expected, not \"0x\"");
-    says(refusal_with("1 2 3 4 7", "1 2 3 5 7"),
+    says(medit_refusal("1 0 0 0", "1 nan 0 0"), "line 7: vertex 2 has a coordinate that is not a finite");
+    says(medit_refusal("1 0 0 0", "1 0x 0 0"), "line 7: a vertex's coordinates was expected, not \"0x\"");
+    says(medit_refusal("1 2 3 4 7", "1 2 3 5 7"),
          "line 15: Tetrahedra number 1 has the vertex 5, but vertices go from 1 to 4");
-    says(refusal_with("1 2 3 5", "0 2 3 5"), "line 12: Triangles number 1 has the vertex 0");
-    says(refusal_with("1 2 3 5", "1 2 3 -5"), "line 12: Triangles number 1 has the negative reference -5");
-    says(refusal_with("End\n", ""), "the file ends without End");
-    says(refusal_with("Triangles", "Quadrilaterals"), "Quadrilaterals are not read");
-    says(refusal_with("Triangles", "Triangels"), "\"Triangels\" is no keyword");
-    says(refusal_with("Tetrahedra", "Triangles"), "Triangles appears twice");
-    says(refusal_with("Vertices\n4", "Triangles\n0\nVertices\n4"), "Vertices were expected before Triangles");
+    says(medit_refusal("1 2 3 5", "0 2 3 5"), "line 12: Triangles number 1 has the vertex 0");
+    says(medit_refusal("1 2 3 5", "1 2 3 -5"), "line 12: Triangles number 1 has the negative reference -5");
+    says(medit_refusal("End\n", ""), "the file ends without End");
+    says(medit_refusal("Triangles", "Quadrilaterals"), "Quadrilaterals are not read");
+    says(medit_refusal("Triangles", "Triangels"), "\"Triangels\" is no keyword");
+    says(medit_refusal("Tetrahedra", "Triangles"), "Triangles appears twice");
+    says(medit_refusal("Vertices\n4", "Triangles\n0\nVertices\n4"),
+         "Vertices were expected before Triangles");
 }
 
 TEST_CASE("A Medit file torn anywhere, or damaged at random, never does more than be refused", "[io]") {
     const scratch::Folder folder;
-    for (std::size_t size = 0; size + 1 < small.size(); ++size) {
-        CHECK(scratch::refusal(io::read_medit, scratch::put(folder / "a.mesh", small.substr(0, size))) != "");
+    for (std::size_t size = 0; size + 1 < small_medit.size(); ++size) {
+        CHECK(scratch::refusal(io::read_medit,
+                               scratch::put(folder / "a.mesh", small_medit.substr(0, size))) != "");
     }
     for (const char* name : {"coarse_gmsh.mesh", "coarse_meshio.mesh"}) {
         CHECK(scratch::survive_damage(io::read_medit, scratch::bytes_of(fixture(name)), folder / "a.mesh",
                                       2000) > 0);
     }
-    CHECK(scratch::survive_damage(io::read_medit, small, folder / "a.mesh", 5000) > 0);
+    CHECK(scratch::survive_damage(io::read_medit, small_medit, folder / "a.mesh", 5000) > 0);
 }
 
 TEST_CASE("Of second-order Medit elements the corners are taken where that is asked for", "[io]") {

@@ -8,20 +8,17 @@
 #include <utility>
 
 using namespace slabhull;
+using soups::says;
 
 namespace {
 
-const std::string small =
+const std::string small_mfem =
     "MFEM mesh v1.0\n\n# SEGMENT = 1, TRIANGLE = 2\n\ndimension\n2\n\nelements\n2\n1 2 0 1 2\n"
     "7 2 0 2 3\n\nboundary\n4\n3 1 0 1\n# a comment\n3 1 1 2\n4 1 2 3\n4 1 3 0\n\nvertices\n4\n"
     "2\n0 0\n1 0\n1 1\n0 1.5\n";
 
-std::string refusal_with(const std::string& from, const std::string& to) {
-    return scratch::refusal(io::read_mfem, "a.mesh", scratch::replaced(small, from, to));
-}
-
-void says(const std::string& message, const std::string& text) {
-    CHECK_THAT(message, Catch::Contains(text));
+std::string mfem_refusal(const std::string& from, const std::string& to) {
+    return scratch::refusal(io::read_mfem, "a.mesh", scratch::replaced(small_mfem, from, to));
 }
 
 io::Soup written(const specimens::Grid& grid) {
@@ -34,7 +31,7 @@ io::Soup written(const specimens::Grid& grid) {
 
 TEST_CASE("An MFEM mesh is read with its boundary elements, attributes and comments", "[io]") {
     const scratch::Folder folder;
-    const io::Soup soup = io::read_mfem(scratch::put(folder / "a.mesh", small));
+    const io::Soup soup = io::read_mfem(scratch::put(folder / "a.mesh", small_mfem));
     CHECK(soup.points == Array<Point<3>>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1.5, 0}});
     CHECK(soup.simplices[2].vertices == Array<Index>{0, 1, 2, 0, 2, 3});
     CHECK(soup.simplices[2].physical == std::vector<PatchNumber>{1, 7});
@@ -135,32 +132,33 @@ TEST_CASE("What MFEM cannot count, and a cell that has a vertex twice, are refus
 }
 
 TEST_CASE("A damaged MFEM mesh is refused with line and entity", "[io]") {
-    says(refusal_with("MFEM mesh", "mesh"), "this is no MFEM mesh");
-    says(refusal_with("v1.0", "v1.3"), "only \"MFEM mesh v1.0\" is read");
-    says(refusal_with("dimension\n2", "dimension\n4"), "line 6: dimension 1, 2 or 3 was expected");
-    says(refusal_with("elements\n2", "elements\n1000000000000000000"),
+    says(mfem_refusal("MFEM mesh", "mesh"), "this is no MFEM mesh");
+    says(mfem_refusal("v1.0", "v1.3"), "only \"MFEM mesh v1.0\" is read");
+    says(mfem_refusal("dimension\n2", "dimension\n4"), "line 6: dimension 1, 2 or 3 was expected");
+    says(mfem_refusal("elements\n2", "elements\n1000000000000000000"),
          "line 9: 1000000000000000000 elements are claimed");
-    says(refusal_with("vertices\n4", "vertices\n1000000000000000000"),
+    says(mfem_refusal("vertices\n4", "vertices\n1000000000000000000"),
          "1000000000000000000 vertices are claimed");
-    says(refusal_with("elements\n2", "elements\n3"), "line 13: an attribute was expected");
-    says(refusal_with("7 2 0 2 3", "0 2 0 2 3"), "line 11: elements number 1 has the attribute 0");
-    says(refusal_with("7 2 0 2 3", "7 3 0 2 3"), "line 11: elements number 1 has the geometry type 3");
-    says(refusal_with("7 2 0 2 3", "7 2 0 2 4"), "element 1 has the vertex 4, but there are 4");
-    says(refusal_with("4 1 3 0", "4 1 3 9"), "boundary element 3 has the vertex 9");
-    says(refusal_with("4 1 3 0", "4 1 3 -1"), "line 19: a vertex's number was expected, not \"-1\"");
-    says(refusal_with("1 1\n0", "1 inf\n0"), "vertex 2 has a coordinate that is not a finite number");
-    says(refusal_with("4\n2\n0 0", "4\nnodes\n0 0"), "curved meshes");
-    says(refusal_with("4\n2\n0 0", "4\n1\n0 0"), "2 to 3 coordinates were expected");
-    says(refusal_with("0 1.5\n", "0 1.5\n7\n"), "the end of the file was expected");
-    says(refusal_with("0 1.5\n", "0 1.5"), "the file seems to be cut short");
+    says(mfem_refusal("elements\n2", "elements\n3"), "line 13: an attribute was expected");
+    says(mfem_refusal("7 2 0 2 3", "0 2 0 2 3"), "line 11: elements number 1 has the attribute 0");
+    says(mfem_refusal("7 2 0 2 3", "7 3 0 2 3"), "line 11: elements number 1 has the geometry type 3");
+    says(mfem_refusal("7 2 0 2 3", "7 2 0 2 4"), "element 1 has the vertex 4, but there are 4");
+    says(mfem_refusal("4 1 3 0", "4 1 3 9"), "boundary element 3 has the vertex 9");
+    says(mfem_refusal("4 1 3 0", "4 1 3 -1"), "line 19: a vertex's number was expected, not \"-1\"");
+    says(mfem_refusal("1 1\n0", "1 inf\n0"), "vertex 2 has a coordinate that is not a finite number");
+    says(mfem_refusal("4\n2\n0 0", "4\nnodes\n0 0"), "curved meshes");
+    says(mfem_refusal("4\n2\n0 0", "4\n1\n0 0"), "2 to 3 coordinates were expected");
+    says(mfem_refusal("0 1.5\n", "0 1.5\n7\n"), "the end of the file was expected");
+    says(mfem_refusal("0 1.5\n", "0 1.5"), "the file seems to be cut short");
 }
 
 TEST_CASE("An MFEM mesh torn anywhere, or damaged at random, never does more than be refused", "[io]") {
     const scratch::Folder folder;
-    for (std::size_t size = 0; size < small.size(); ++size) {
-        CHECK(scratch::refusal(io::read_mfem, scratch::put(folder / "a.mesh", small.substr(0, size))) != "");
+    for (std::size_t size = 0; size < small_mfem.size(); ++size) {
+        CHECK(scratch::refusal(io::read_mfem, scratch::put(folder / "a.mesh", small_mfem.substr(0, size))) !=
+              "");
     }
-    CHECK(scratch::survive_damage(io::read_mfem, small, folder / "a.mesh", 5000) > 0);
+    CHECK(scratch::survive_damage(io::read_mfem, small_mfem, folder / "a.mesh", 5000) > 0);
     io::write_mfem(folder / "b.mesh", specimens::Grid(3, 2).columns());
     CHECK(scratch::survive_damage(io::read_mfem, scratch::bytes_of(folder / "b.mesh"), folder / "a.mesh",
                                   5000) > 0);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <string>
 #include <variant>
 
 namespace soups {
@@ -83,6 +84,10 @@ const T& values(const io::DataArray* array) {
     REQUIRE(array != nullptr);
     REQUIRE(std::holds_alternative<T>(array->values));
     return std::get<T>(array->values);
+}
+
+inline void says(const std::string& message, const std::string& text) {
+    CHECK_THAT(message, Catch::Contains(text));
 }
 
 inline std::size_t size_of(const io::DataArray& array) {

@@ -43,22 +43,23 @@ struct Files {
     }
 };
 
-std::string refusal(const std::string& changed, const std::string& text, const std::string& read = "ele") {
+std::string tetgen_refusal(const std::string& changed, const std::string& text,
+                           const std::string& read = "ele") {
     const Files files;
     files.put(changed, text);
     return scratch::refusal(io::read_tetgen, files.path(read));
 }
 
-std::string refusal(const std::string& changed, const std::string& text, const std::string& from,
-                    const std::string& to, const std::string& read) {
-    return refusal(changed, scratch::replaced(text, from, to), read);
+std::string tetgen_refusal(const std::string& changed, const std::string& text, const std::string& from,
+                           const std::string& to, const std::string& read) {
+    return tetgen_refusal(changed, scratch::replaced(text, from, to), read);
 }
 
 template<class T>
 using Values = std::conditional_t<std::is_integral_v<T>, IntegerList, Array<T>>;
 
 template<class T>
-const Values<T>& values(const io::DataArray* array) {
+const Values<T>& values_of(const io::DataArray* array) {
     return soups::values<Values<T>>(array);
 }
 
@@ -79,15 +80,15 @@ TEST_CASE("The files of a stem are read together, whatever they start to count f
         CHECK(soup.simplices[2].vertices == Array<Index>{0, 1, 2, 0, 1, 3});
         CHECK(soup.simplices[2].physical == std::vector<PatchNumber>{4, 0});
         CHECK(soup.groups[2] == PatchList{{4, ""}});
-        CHECK(values<double>(soup.find_point_data("attribute_0")) == Reals{0.5, 1.5, 2.5, 3.5, 4.5});
-        CHECK(values<std::int64_t>(soup.find_point_data("marker")) == Integers{7, -1, 0, 2, 2});
-        CHECK(values<double>(soup.find_cell_data("attribute_0")) == Reals{10, 20});
-        CHECK(values<std::int64_t>(soup.find_cell_data("neighbors")) ==
+        CHECK(values_of<double>(soup.find_point_data("attribute_0")) == Reals{0.5, 1.5, 2.5, 3.5, 4.5});
+        CHECK(values_of<std::int64_t>(soup.find_point_data("marker")) == Integers{7, -1, 0, 2, 2});
+        CHECK(values_of<double>(soup.find_cell_data("attribute_0")) == Reals{10, 20});
+        CHECK(values_of<std::int64_t>(soup.find_cell_data("neighbors")) ==
               Integers{1, -1, -1, -1, 0, -1, -1, -1});
     }
     const io::Soup faces = io::read_tetgen(files.path("face"));
     CHECK(faces.top_dimension() == 2);
-    CHECK(values<std::int64_t>(faces.find_cell_data("marker")) == Integers{4, -9});
+    CHECK(values_of<std::int64_t>(faces.find_cell_data("marker")) == Integers{4, -9});
 }
 
 TEST_CASE("Piecewise linear complexes of triangles are read, with holes and regions", "[io]") {
@@ -95,8 +96,8 @@ TEST_CASE("Piecewise linear complexes of triangles are read, with holes and regi
     const io::Soup flat = io::read_tetgen(files.path("smesh"));
     CHECK(flat.simplices[2].vertices == Array<Index>{0, 1, 2, 0, 1, 3});
     CHECK(flat.simplices[2].physical == std::vector<PatchNumber>{5, 0});
-    CHECK(values<double>(flat.find_field_data("holes")) == Reals{0.5, 0.5, 0.5});
-    CHECK(values<double>(flat.find_field_data("regions")) == Reals{1, 2, 3, 4, 0.25, 1, 2, 3, 5, -1});
+    CHECK(values_of<double>(flat.find_field_data("holes")) == Reals{0.5, 0.5, 0.5});
+    CHECK(values_of<double>(flat.find_field_data("regions")) == Reals{1, 2, 3, 4, 0.25, 1, 2, 3, 5, -1});
     const io::Soup nested = io::read_tetgen(files.path("poly"));
     CHECK(nested.simplices[2].vertices == Array<Index>{0, 1, 2, 0, 1, 3, 1, 2, 3});
     CHECK(nested.simplices[2].physical == std::vector<PatchNumber>{6, 6, 0});
@@ -115,27 +116,28 @@ TEST_CASE("Triangle's planar files are read", "[io]") {
 
 TEST_CASE("Faults in TetGen's files are refused with file, line and entity", "[io]") {
     using Catch::Contains;
-    CHECK_THAT(refusal("ele", ele, "1 1 2 3 4", "1 1 2 3 6", "ele"),
+    CHECK_THAT(tetgen_refusal("ele", ele, "1 1 2 3 4", "1 1 2 3 6", "ele"),
                Contains("cell 1 names point 6") && Contains("line 2"));
-    CHECK_THAT(refusal("ele", ele, "1 1 2 3 4", "1 1 2 3 0", "ele"), Contains("point 0"));
-    CHECK_THAT(refusal("ele", ele, "1 1 2 3 4", "1 1 2 nan 4", "ele"), Contains("\"nan\""));
-    CHECK_THAT(refusal("ele", ele, "2 5", "3 5", "ele"), Contains("cell 2 was expected, not 3"));
-    CHECK_THAT(refusal("ele", ele, "2 4 1", "2 10 1", "ele"), Contains("10 nodes"));
-    CHECK_THAT(refusal("ele", ele, "2 4 1", "2 7 1", "ele"), Contains("7 corners"));
-    CHECK_THAT(refusal("ele", ele, "4 10", "4 10 11", "ele"), Contains("more values"));
-    CHECK_THAT(refusal("ele", ele, "4 20", "4", "ele"), Contains("an attribute was expected"));
-    CHECK_THAT(refusal("ele", ele + "3 1 2 3 5 1\n"), Contains("more rows"));
-    CHECK_THAT(refusal("node", node, "2 1 0 0", "2 1 inf 0", "ele"), Contains("point 2 has"));
-    CHECK_THAT(refusal("node", node, "\n1 0", "\n7 0", "ele"), Contains("not 0 or 1"));
-    CHECK_THAT(refusal("node", node, "5 3 1 1", "5 4 1 1", "ele"), Contains("4 dimensions"));
-    CHECK_THAT(refusal("node", "junk"), Contains("counts were expected"));
-    CHECK_THAT(refusal("neigh", neigh, "1 2 -1", "1 -1 2", "ele"),
+    CHECK_THAT(tetgen_refusal("ele", ele, "1 1 2 3 4", "1 1 2 3 0", "ele"), Contains("point 0"));
+    CHECK_THAT(tetgen_refusal("ele", ele, "1 1 2 3 4", "1 1 2 nan 4", "ele"), Contains("\"nan\""));
+    CHECK_THAT(tetgen_refusal("ele", ele, "2 5", "3 5", "ele"), Contains("cell 2 was expected, not 3"));
+    CHECK_THAT(tetgen_refusal("ele", ele, "2 4 1", "2 10 1", "ele"), Contains("10 nodes"));
+    CHECK_THAT(tetgen_refusal("ele", ele, "2 4 1", "2 7 1", "ele"), Contains("7 corners"));
+    CHECK_THAT(tetgen_refusal("ele", ele, "4 10", "4 10 11", "ele"), Contains("more values"));
+    CHECK_THAT(tetgen_refusal("ele", ele, "4 20", "4", "ele"), Contains("an attribute was expected"));
+    CHECK_THAT(tetgen_refusal("ele", ele + "3 1 2 3 5 1\n"), Contains("more rows"));
+    CHECK_THAT(tetgen_refusal("node", node, "2 1 0 0", "2 1 inf 0", "ele"), Contains("point 2 has"));
+    CHECK_THAT(tetgen_refusal("node", node, "\n1 0", "\n7 0", "ele"), Contains("not 0 or 1"));
+    CHECK_THAT(tetgen_refusal("node", node, "5 3 1 1", "5 4 1 1", "ele"), Contains("4 dimensions"));
+    CHECK_THAT(tetgen_refusal("node", "junk"), Contains("counts were expected"));
+    CHECK_THAT(tetgen_refusal("neigh", neigh, "1 2 -1", "1 -1 2", "ele"),
                Contains("no neighbor of cell 1 opposite to its corner 1"));
-    CHECK_THAT(refusal("neigh", neigh, "1 2 -1", "1 3 -1", "ele"), Contains("cell 3 is no neighbor"));
-    CHECK_THAT(refusal("neigh", "1 4\n1 -1 -1 -1 -1\n"), Contains("1 rows of 4 neighbors for 2 cells"));
-    CHECK_THAT(refusal("smesh", smesh, "3 0 1 2 5", "4 0 1 2 3 5", "smesh"),
+    CHECK_THAT(tetgen_refusal("neigh", neigh, "1 2 -1", "1 3 -1", "ele"), Contains("cell 3 is no neighbor"));
+    CHECK_THAT(tetgen_refusal("neigh", "1 4\n1 -1 -1 -1 -1\n"),
+               Contains("1 rows of 4 neighbors for 2 cells"));
+    CHECK_THAT(tetgen_refusal("smesh", smesh, "3 0 1 2 5", "4 0 1 2 3 5", "smesh"),
                Contains("facet 0") && Contains("4 corners"));
-    CHECK_THAT(refusal("poly", poly, "2 0 6", "2 1 6", "poly"), Contains("facet 1 has holes"));
+    CHECK_THAT(tetgen_refusal("poly", poly, "2 0 6", "2 1 6", "poly"), Contains("facet 1 has holes"));
     CHECK_THAT(scratch::refusal(io::read_tetgen, "/nowhere/a.ele"), Contains("No such file"));
     CHECK_THAT(scratch::refusal(io::read_tetgen, "/nowhere/a.vtu"), Contains(".node"));
 }
@@ -143,14 +145,15 @@ TEST_CASE("Faults in TetGen's files are refused with file, line and entity", "[i
 TEST_CASE("Huge claimed counts in TetGen's files are refused before memory is asked for", "[io]") {
     using Catch::Contains;
     const std::string huge = "1000000000000000000";
-    CHECK_THAT(refusal("node", node, "5 3", huge + " 3", "ele"), Contains(huge));
-    CHECK_THAT(refusal("node", node, "3 1 1", "3 " + huge + " 1", "ele"), Contains(huge));
-    CHECK_THAT(refusal("ele", ele, "2 4", huge + " 4", "ele"), Contains(huge));
-    CHECK_THAT(refusal("neigh", neigh, "2 4", huge + " 4", "ele"), Contains(huge));
-    CHECK_THAT(refusal("face", face, "2 1", huge + " 1", "face"), Contains(huge));
-    CHECK_THAT(refusal("smesh", smesh, "2 1", huge + " 1", "smesh"), Contains(huge));
-    CHECK_THAT(refusal("poly", poly, "2 0 6", huge + " 0 6", "poly"), Contains(huge));
-    CHECK_THAT(refusal("ele", ele, "2 4", "18446744073709551616 4", "ele"), Contains("counts were expected"));
+    CHECK_THAT(tetgen_refusal("node", node, "5 3", huge + " 3", "ele"), Contains(huge));
+    CHECK_THAT(tetgen_refusal("node", node, "3 1 1", "3 " + huge + " 1", "ele"), Contains(huge));
+    CHECK_THAT(tetgen_refusal("ele", ele, "2 4", huge + " 4", "ele"), Contains(huge));
+    CHECK_THAT(tetgen_refusal("neigh", neigh, "2 4", huge + " 4", "ele"), Contains(huge));
+    CHECK_THAT(tetgen_refusal("face", face, "2 1", huge + " 1", "face"), Contains(huge));
+    CHECK_THAT(tetgen_refusal("smesh", smesh, "2 1", huge + " 1", "smesh"), Contains(huge));
+    CHECK_THAT(tetgen_refusal("poly", poly, "2 0 6", huge + " 0 6", "poly"), Contains(huge));
+    CHECK_THAT(tetgen_refusal("ele", ele, "2 4", "18446744073709551616 4", "ele"),
+               Contains("counts were expected"));
 }
 
 TEST_CASE("TetGen's files cut short or damaged anywhere are refused or read as a consistent soup", "[io]") {
@@ -196,15 +199,15 @@ TEST_CASE("Tetrahedra written as TetGen's files come back bit for bit", "[io]") 
     const io::Soup soup = io::read_tetgen(folder / "a.b.ele");
     CHECK(soup.points == Array<Point<3>>(grid.points.begin(), grid.points.end()));
     CHECK(soup.simplices[3].vertices == Array<Index>(grid.cells.begin(), grid.cells.end()));
-    CHECK(values<double>(soup.find_point_data("t")) == Reals(grid.time.begin(), grid.time.end()));
-    CHECK(values<std::int64_t>(soup.find_point_data("vertex_id")) ==
+    CHECK(values_of<double>(soup.find_point_data("t")) == Reals(grid.time.begin(), grid.time.end()));
+    CHECK(values_of<std::int64_t>(soup.find_point_data("vertex_id")) ==
           Array<std::int64_t>(grid.ids.begin(), grid.ids.end()));
-    const auto& back = values<double>(soup.find_point_data("a b:c"));
+    const auto& back = values_of<double>(soup.find_point_data("a b:c"));
     CHECK(std::signbit(back[0]));
     CHECK(std::equal(odd.begin(), odd.end(), back.begin()));
-    CHECK(values<std::int64_t>(soup.find_point_data("marker")).at(3) == -4);
+    CHECK(values_of<std::int64_t>(soup.find_point_data("marker")).at(3) == -4);
     CHECK(soup.find_cell_data("pair")->components == 2);
-    CHECK(values<std::int64_t>(soup.find_cell_data("pair")) ==
+    CHECK(values_of<std::int64_t>(soup.find_cell_data("pair")) ==
           Array<std::int64_t>(grid.pairs.begin(), grid.pairs.end()));
     CHECK(soup.simplices[3].physical.front() == 5);
     CHECK(soup.simplices[3].physical.back() == 9);
@@ -234,18 +237,19 @@ TEST_CASE("Triangles with markers, holes and adjacency of tetrahedra survive Tet
     CHECK(nested.points == soup.points);
     CHECK(nested.simplices[2].vertices == soup.simplices[2].vertices);
     CHECK(nested.simplices[2].physical == soup.simplices[2].physical);
-    CHECK(values<double>(nested.find_field_data("regions")) == Reals{1, 2, 3, 4, 5});
-    CHECK(values<double>(soup.find_field_data("holes")) == Reals{0.1, 0.2, 0.3});
-    CHECK(values<double>(soup.find_field_data("regions")) == Reals{1, 2, 3, 4, 5});
+    CHECK(values_of<double>(nested.find_field_data("regions")) == Reals{1, 2, 3, 4, 5});
+    CHECK(values_of<double>(soup.find_field_data("holes")) == Reals{0.1, 0.2, 0.3});
+    CHECK(values_of<double>(soup.find_field_data("regions")) == Reals{1, 2, 3, 4, 5});
     const Files files;
     const io::Soup cells = io::read_tetgen(files.path("ele"));
-    const auto& neighbors = values<std::int64_t>(cells.find_cell_data("neighbors"));
+    const auto& neighbors = values_of<std::int64_t>(cells.find_cell_data("neighbors"));
     io::MeshColumns both;
     both.points = Column<double>::over(std::span{cells.points.front().data(), 3 * cells.points.size()}, 3);
     both.cells = Column<std::int64_t>::over(std::span{cells.simplices[3].vertices}, 4);
     both.cell_data = {{"neighbors", io::Scalar::int64, integer_column(neighbors, 4)}};
     io::write_tetgen(folder / "b", both);
-    CHECK(values<std::int64_t>(io::read_tetgen(folder / "b.ele").find_cell_data("neighbors")) == neighbors);
+    CHECK(values_of<std::int64_t>(io::read_tetgen(folder / "b.ele").find_cell_data("neighbors")) ==
+          neighbors);
 }
 
 TEST_CASE("TetGen's files appear all or not at all, and lines are refused", "[io]") {

@@ -17,7 +17,7 @@ io::Soup read_any(const std::filesystem::path& path) {
     return io::read_mesh(path);
 }
 
-const std::string small_text =
+const std::string small_vtu =
     "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
     "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n"
     "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 "
@@ -28,8 +28,8 @@ const std::string small_text =
     "<PointData><DataArray type=\"Int8\" Name=\"p\" format=\"ascii\">-1 2 3 4</DataArray></PointData>\n"
     "</Piece></UnstructuredGrid></VTKFile>\n";
 
-std::string text_refusal(const std::string& from, const std::string& to) {
-    return scratch::refusal(io::read_vtu, "a.vtu", scratch::replaced(small_text, from, to));
+std::string vtu_refusal(const std::string& from, const std::string& to) {
+    return scratch::refusal(io::read_vtu, "a.vtu", scratch::replaced(small_vtu, from, to));
 }
 
 } // namespace
@@ -212,39 +212,39 @@ TEST_CASE("Integers take 32 bits where they fit, whatever their type, and runs h
 
 TEST_CASE("A VTU file that we do not read is refused by name", "[io]") {
     using Catch::Contains;
-    CHECK_THAT(text_refusal("version", "compressor=\"vtkLZMADataCompressor\" version"),
+    CHECK_THAT(vtu_refusal("version", "compressor=\"vtkLZMADataCompressor\" version"),
                Contains("vtkLZMADataCompressor"));
-    CHECK_THAT(text_refusal("\"LittleEndian", "\"MiddleEndian"), Contains("MiddleEndian"));
-    CHECK_THAT(text_refusal("version", "header_type=\"UInt16\" version"), Contains("UInt16"));
+    CHECK_THAT(vtu_refusal("\"LittleEndian", "\"MiddleEndian"), Contains("MiddleEndian"));
+    CHECK_THAT(vtu_refusal("version", "header_type=\"UInt16\" version"), Contains("UInt16"));
     CHECK_THAT(scratch::refusal(io::read_vtu, fixture("quads.msh")), Contains("no VTU file"));
-    CHECK_THAT(text_refusal("UnstructuredGrid\"", "PolyData\""), Contains("PolyData"));
-    CHECK_THAT(text_refusal(">10<", ">12<"), Contains("cell 0 is a hexahedron"));
-    CHECK_THAT(text_refusal(">10<", ">3<"), Contains("cell 0 has not 2 vertices"));
-    CHECK_THAT(text_refusal(">10<", ">1<"), Contains("cell 0 is a vertex, but it has not 1 vertices"));
-    CHECK_THAT(text_refusal(">10<", ">24<"), Contains("cell 0 is a quadratic tetrahedron"));
-    CHECK_THAT(text_refusal("\"Int32\" Name=\"c", "\"Bit\" Name=\"c"), Contains("\"Bit\""));
+    CHECK_THAT(vtu_refusal("UnstructuredGrid\"", "PolyData\""), Contains("PolyData"));
+    CHECK_THAT(vtu_refusal(">10<", ">12<"), Contains("cell 0 is a hexahedron"));
+    CHECK_THAT(vtu_refusal(">10<", ">3<"), Contains("cell 0 has not 2 vertices"));
+    CHECK_THAT(vtu_refusal(">10<", ">1<"), Contains("cell 0 is a vertex, but it has not 1 vertices"));
+    CHECK_THAT(vtu_refusal(">10<", ">24<"), Contains("cell 0 is a quadratic tetrahedron"));
+    CHECK_THAT(vtu_refusal("\"Int32\" Name=\"c", "\"Bit\" Name=\"c"), Contains("\"Bit\""));
 }
 
 TEST_CASE("Faults in a VTU file are refused with array and cell or point", "[io]") {
     using Catch::Contains;
-    CHECK_THAT(text_refusal("0 1 2 3", "0 1 2 4"),
+    CHECK_THAT(vtu_refusal("0 1 2 3", "0 1 2 4"),
                Contains("connectivity") && Contains("cell 0") && Contains("byte "));
-    CHECK_THAT(text_refusal("0 1 2 3", "0 1 2 -1"), Contains("cell 0"));
-    CHECK_THAT(text_refusal("0 1 2 3", "0 1 2"), Contains("connectivity"));
-    CHECK_THAT(text_refusal("\"Int32\" Name=\"c", "\"Float64\" Name=\"c"),
+    CHECK_THAT(vtu_refusal("0 1 2 3", "0 1 2 -1"), Contains("cell 0"));
+    CHECK_THAT(vtu_refusal("0 1 2 3", "0 1 2"), Contains("connectivity"));
+    CHECK_THAT(vtu_refusal("\"Int32\" Name=\"c", "\"Float64\" Name=\"c"),
                Contains("array \"connectivity\": integers were expected, not reals"));
-    CHECK_THAT(text_refusal("0 1 2 3", "0 1 two 3"), Contains("\"two\""));
-    CHECK_THAT(text_refusal("0 0 1<", "0 0 nan<"), Contains("point 3"));
-    CHECK_THAT(text_refusal("0 0 1<", "0 0 1e999<"), !Catch::Equals(""));
-    CHECK_THAT(text_refusal("0 0 1<", "0 0<"), Contains("points of 3"));
-    CHECK_THAT(text_refusal("Points=\"4\"", "Points=\"1000000000000000000\""),
+    CHECK_THAT(vtu_refusal("0 1 2 3", "0 1 two 3"), Contains("\"two\""));
+    CHECK_THAT(vtu_refusal("0 0 1<", "0 0 nan<"), Contains("point 3"));
+    CHECK_THAT(vtu_refusal("0 0 1<", "0 0 1e999<"), !Catch::Equals(""));
+    CHECK_THAT(vtu_refusal("0 0 1<", "0 0<"), Contains("points of 3"));
+    CHECK_THAT(vtu_refusal("Points=\"4\"", "Points=\"1000000000000000000\""),
                Contains("1000000000000000000 points"));
-    CHECK_THAT(text_refusal("Points=\"4\"", "Points=\"-4\""), Contains("no count"));
-    CHECK_THAT(text_refusal("Cells=\"1\"", "Cells=\"2\""), Contains("2 cells are claimed"));
-    CHECK_THAT(text_refusal("\"ascii\">4<", "\"ascii\">3<"), Contains("has not 4 vertices"));
-    CHECK_THAT(text_refusal("-1 2 3 4", "-1 2 3"), Contains("array \"p\""));
-    CHECK_THAT(text_refusal("-1 2 3 4", "-1 2 3 400"), Contains("400 does not fit"));
-    CHECK_THAT(text_refusal("Name=\"types\"", "Name=\"kinds\""), Contains("\"types\" is missing"));
+    CHECK_THAT(vtu_refusal("Points=\"4\"", "Points=\"-4\""), Contains("no count"));
+    CHECK_THAT(vtu_refusal("Cells=\"1\"", "Cells=\"2\""), Contains("2 cells are claimed"));
+    CHECK_THAT(vtu_refusal("\"ascii\">4<", "\"ascii\">3<"), Contains("has not 4 vertices"));
+    CHECK_THAT(vtu_refusal("-1 2 3 4", "-1 2 3"), Contains("array \"p\""));
+    CHECK_THAT(vtu_refusal("-1 2 3 4", "-1 2 3 400"), Contains("400 does not fit"));
+    CHECK_THAT(vtu_refusal("Name=\"types\"", "Name=\"kinds\""), Contains("\"types\" is missing"));
     CHECK_THAT(scratch::refusal(io::read_vtu, "/nowhere/a.vtu"), Contains("No such file"));
 }
 
@@ -331,7 +331,7 @@ TEST_CASE("The bytes of a VTU file do not depend on the number of threads", "[io
 TEST_CASE("A mesh file is known by its extension, in any case, or else by its content", "[io]") {
     const scratch::Folder folder;
     for (const char* name : {"a.VTU", "a.data"}) {
-        CHECK(io::read_mesh(scratch::put(folder / name, small_text)).points.size() == 4);
+        CHECK(io::read_mesh(scratch::put(folder / name, small_vtu)).points.size() == 4);
     }
     CHECK(io::read_mesh(scratch::put(folder / "b", scratch::bytes_of(fixture("size_t_4.msh"))))
               .top_dimension() == 3);

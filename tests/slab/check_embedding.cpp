@@ -19,16 +19,16 @@ using specimens::Claims;
 
 namespace {
 
-struct Checked {
+struct Verdict {
     HullReport report;
     std::optional<EmbeddingSummary> embedding;
 };
 
 template<int D>
-Checked check(const Claims<D>& claims, const CheckOptions& options = {}) {
-    Checked checked{check_hull<D>(claims.columns(), options), {}};
-    checked.embedding = check_embedding<D>(claims.columns(), options, checked.report);
-    return checked;
+Verdict checked(const Claims<D>& claims, const CheckOptions& options = {}) {
+    Verdict verdict{check_hull<D>(claims.columns(), options), {}};
+    verdict.embedding = check_embedding<D>(claims.columns(), options, verdict.report);
+    return verdict;
 }
 
 /// Coordinates are multiples of 1/20 in these specimens; whole ones for the judge.
@@ -75,7 +75,7 @@ TEMPLATE_TEST_CASE_SIG("sound hulls do not cross themselves, and their caps need
     for (const auto& grid :
          {specimens::full_box<D>(2), specimens::box_with_body<D>(), specimens::box_with_two_bodies<D>()}) {
         const Claims<D> claims{specimens::swept(grid, 2)};
-        const auto [report, embedding] = check(claims);
+        const auto [report, embedding] = checked(claims);
         CHECK(report.clean());
         CHECK(report.skipped.empty());
         REQUIRE(embedding);
@@ -154,7 +154,7 @@ TEMPLATE_TEST_CASE_SIG("bodies that meet between levels are findings with number
     CheckOptions options;
     options.cell_number = [](Index c) { return 1000 + std::int64_t{c}; };
     options.most_findings = 5;
-    auto [report, embedding] = check(claims, options);
+    auto [report, embedding] = checked(claims, options);
     REQUIRE(embedding);
     CHECK(embedding->caps_proven);
     CHECK(embedding->crossings == report.count(Defect::self_crossing));
@@ -193,7 +193,7 @@ TEST_CASE("the findings are the same for any number of threads", "[embedding]") 
 TEST_CASE("what geometry does not apply to is skipped with a reason", "[embedding]") {
     Claims<3> claims{specimens::swept(specimens::full_box<3>(1), 1)};
     claims.points[0][1] = std::numeric_limits<double>::quiet_NaN();
-    const auto [report, embedding] = check(claims);
+    const auto [report, embedding] = checked(claims);
     CHECK_FALSE(embedding);
     REQUIRE_FALSE(report.skipped.empty());
     CHECK_THAT(report.skipped.back(), Contains("embedding"));

@@ -23,11 +23,12 @@
 using namespace slabhull;
 using specimens::Claims;
 using specimens::SlabParts;
+using specimens::stitched;
 
 namespace {
 
 template<int D>
-std::vector<SideOptions> all_sides() {
+std::vector<SideOptions> one_side_of_each_split() {
     if constexpr (D == 2) {
         return {{Split::diagonal}, {Split::centre}};
     } else {
@@ -36,7 +37,7 @@ std::vector<SideOptions> all_sides() {
 }
 
 template<int D>
-std::vector<specimens::Grid<D>> family() {
+std::vector<specimens::Grid<D>> sliced_grids() {
     return {specimens::full_box<D>(1), specimens::box_with_body<D>(), specimens::box_with_two_bodies<D>(),
             specimens::box_with_channel<D>()};
 }
@@ -50,18 +51,12 @@ SlabParts<D> parts_over(const specimens::Grid<D>& grid) {
                                    ids);
 }
 
-template<int D>
-Hull<D> stitched(const SlabParts<D>& parts, const SideOptions& side) {
-    IdCounter ids{1'000'000};
-    return stitch<D>(parts.initial, parts.sweep, parts.terminating, side, ids);
-}
-
 /// Calls visit(hull, its parts) for each grid of the family and each split.
 template<int D, class Visit>
 void each_hull(const Visit& visit) {
-    for (const auto& grid : family<D>()) {
+    for (const auto& grid : sliced_grids<D>()) {
         const auto parts = parts_over<D>(grid);
-        for (const SideOptions& side : all_sides<D>()) {
+        for (const SideOptions& side : one_side_of_each_split<D>()) {
             INFO(grid.cells.size() << " cells, split " << split_name(side.split));
             visit(stitched<D>(parts, side), parts);
         }
@@ -289,7 +284,8 @@ TEMPLATE_TEST_CASE_SIG("the section at a level is exactly the boundary of that l
 
 TEMPLATE_TEST_CASE_SIG("a time that is a level's but for rounding is that level", "[slice]", ((int D), D), 2,
                        3) {
-    const Hull<D> hull = stitched<D>(parts_over<D>(specimens::box_with_body<D>()), all_sides<D>().back());
+    const Hull<D> hull =
+        stitched<D>(parts_over<D>(specimens::box_with_body<D>()), one_side_of_each_split<D>().back());
     for (const double level : levels) {
         for (const double towards : {0.0, 2.0}) { // which leaves the hull at its ends
             const Section<D> section = slice_hull<D>(columns_of(hull), std::nextafter(level, towards));
@@ -327,7 +323,7 @@ TEMPLATE_TEST_CASE_SIG("sections stay closed when the side's points are moved ab
     std::uniform_real_distribution<double> jitter{-0.03, 0.03};
     std::uniform_real_distribution<double> anywhere{levels.front(), levels.back()};
     const auto parts = parts_over<D>(GENERATE(specimens::full_box<D>(1), specimens::box_with_body<D>()));
-    for (const SideOptions& side : all_sides<D>()) {
+    for (const SideOptions& side : one_side_of_each_split<D>()) {
         Hull<D> hull = stitched<D>(parts, side);
         for (auto& point : hull.points) {
             if (point[D] > levels.front() && point[D] < levels.back()) {
@@ -393,7 +389,7 @@ TEMPLATE_TEST_CASE_SIG("what stands still stays exactly where it is", "[slice]",
 TEMPLATE_TEST_CASE_SIG("vertices know the tracks that they are on, and those that are the hull's own",
                        "[slice]", ((int D), D), 2, 3) {
     const auto parts = parts_over<D>(specimens::box_with_body<D>());
-    const Hull<D> hull = stitched<D>(parts, all_sides<D>().front());
+    const Hull<D> hull = stitched<D>(parts, one_side_of_each_split<D>().front());
     const Section<D> section = slice_hull<D>(columns_of(hull), 1.23);
     std::multiset<TrackId> tracks(section.track_ids.begin(), section.track_ids.end());
     CHECK(tracks.count(no_track) == section.track_ids.size() - parts.sweep.boundary.vertex_count());
@@ -450,8 +446,8 @@ TEMPLATE_TEST_CASE_SIG("a shifted, mirrored or reversed hull has shifted, mirror
 
 TEMPLATE_TEST_CASE_SIG("a section depends neither on other times nor on the number of threads", "[slice]",
                        ((int D), D), 2, 3) {
-    const Hull<D> hull =
-        stitched<D>(parts_over<D>(specimens::full_box<D>(D == 2 ? 100 : 16)), all_sides<D>().back());
+    const Hull<D> hull = stitched<D>(parts_over<D>(specimens::full_box<D>(D == 2 ? 100 : 16)),
+                                     one_side_of_each_split<D>().back());
     const std::vector<double> times{1.0, 1.05, 1.1, 1.2, 1.25, 1.3, 1.5, 1.69, 1.7};
     set_thread_count(3);
     std::size_t k = 0;

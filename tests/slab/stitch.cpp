@@ -20,6 +20,7 @@
 
 using namespace slabhull;
 using specimens::SlabParts;
+using specimens::stitched;
 
 namespace {
 
@@ -46,12 +47,6 @@ SlabParts<D> slab_over(const specimens::Grid<D>& grid, std::vector<double> times
     IdCounter ids;
     auto cap = specimens::as_cap<D>(grid, ids);
     return specimens::next_slab<D>(std::move(cap), std::move(times), motion, ids);
-}
-
-template<int D>
-Hull<D> stitched(const SlabParts<D>& parts, const SideOptions& side) {
-    IdCounter ids{1'000'000};
-    return stitch<D>(parts.initial, parts.sweep, parts.terminating, side, ids);
 }
 
 /// Whether all that a part says is what the whole hull says there.

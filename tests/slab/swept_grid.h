@@ -103,4 +103,10 @@ MotionPointer<D> bending_flow() {
     }
 }
 
+template<int D>
+Hull<D> stitched(const SlabParts<D>& parts, const SideOptions& side) {
+    IdCounter ids{1'000'000};
+    return stitch<D>(parts.initial, parts.sweep, parts.terminating, side, ids);
+}
+
 } // namespace slabhull::specimens

@@ -40,7 +40,7 @@ Array<Neighbors<D>> neighbors_of(const Complex<D>& complex) {
 }
 
 template<int D>
-std::vector<Complex<D>> family() {
+std::vector<Complex<D>> complexes_with_graphs() {
     using namespace specimens;
     Complex<D> holed = torus<D>(3);
     holed.cells.erase(holed.cells.begin() + 3, holed.cells.begin() + 8);
@@ -115,14 +115,14 @@ TEMPLATE_TEST_CASE_SIG("the dual graph has the cells for vertices and the facets
             build_adjacency<1>(Array<Simplex<1>>{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}}, 7)
                 .neighbors);
     } else {
-        for (const Complex<D>& complex : family<D>()) {
+        for (const Complex<D>& complex : complexes_with_graphs<D>()) {
             require_graph_right<D>(neighbors_of(complex));
         }
     }
 }
 
 TEMPLATE_TEST_CASE_SIG("Boost's algorithms run on it and agree with ours", "", ((int D), D), 2, 3) {
-    for (const Complex<D>& complex : family<D>()) {
+    for (const Complex<D>& complex : complexes_with_graphs<D>()) {
         const auto neighbors = neighbors_of(complex);
         const DualGraph<D> graph{neighbors};
         std::vector<Index> component(neighbors.size());
