@@ -39,7 +39,7 @@ std::shared_ptr<March<D>> march_after(March<D>& march, const Slab<D>& slab) {
     return std::make_shared<March<D>>(state_after(march.state().boundary, slab), march.settings());
 }
 
-py::dict as_dict(const StageClock& clock) {
+py::dict seconds_by_stage(const StageClock& clock) {
     py::dict seconds;
     for (const auto& [stage, passed] : clock.stages()) {
         seconds[py::str(stage)] = passed;
@@ -47,7 +47,7 @@ py::dict as_dict(const StageClock& clock) {
     return seconds;
 }
 
-py::dict as_dict(const LayerFit& fit) {
+py::dict dict_of_fit(const LayerFit& fit) {
     py::dict out;
     out["number"] = fit.layers;
     out["largest_deviation"] = fit.deviation;
@@ -184,7 +184,7 @@ SharedSlab SharedMarch::propose(std::vector<double> times) {
             auto slab = long_call(on_progress, [&] {
                 return std::make_shared<const Slab<D>>(march->propose(std::move(times), clock));
             });
-            return SharedSlab{std::move(slab), march, as_dict(clock)};
+            return SharedSlab{std::move(slab), march, seconds_by_stage(clock)};
         },
         march_);
 }
@@ -221,7 +221,7 @@ void bind_slab(py::module_& module) {
                                "The terminating cap is the initial one, moved.")
         .def_property_readonly("moved_angle", of_slab([](const auto& slab) { return slab.moved_angle; }),
                                "Smallest angle of the moved cap in degrees, if moving was tried.")
-        .def_property_readonly("layers", of_slab([](const auto& slab) { return as_dict(slab.layers); }),
+        .def_property_readonly("layers", of_slab([](const auto& slab) { return dict_of_fit(slab.layers); }),
                                "How well the layers follow the motion.")
         .def_property_readonly("layers_enough", of_slab([](const auto& slab) { return slab.layers_enough; }),
                                "A sufficient number of layers if too few were given.")
