@@ -111,8 +111,8 @@ private:
 
 class MpiRank final : public Communicator {
 public:
-    MpiRank(MPI_Comm world, const Pulse& pulse, double silence, int rank, int size)
-        : Communicator{rank, size}, world_{world}, pulse_{pulse}, silence_{silence} {}
+    MpiRank(MPI_Comm world, const Pulse& pulse, double timeout, int rank, int size)
+        : Communicator{rank, size}, world_{world}, pulse_{pulse}, timeout_{timeout} {}
 
 protected:
     void exchange(const void* mine, std::size_t bytes, void* all) override {
@@ -165,9 +165,12 @@ private:
         }
     }
 
+    /// One rank tells of a silent one: the lowest that can, unless it does not come to it soon.
     void require_life() const {
+        constexpr double soon = 5;
         const auto [silent, which] = pulse_.longest_silence();
-        if (silent > silence_) {
+        const bool speaks = rank() == (which == 0 ? 1 : 0);
+        if (silent > timeout_ + (speaks ? 0 : soon)) {
             fmt::print(stderr, "slabhull: rank {} has not been heard of for {:.0f} s: all ranks end\n", which,
                        silent);
             MPI_Abort(world_, static_cast<int>(Failure::geometry));
@@ -176,7 +179,7 @@ private:
 
     MPI_Comm world_;
     const Pulse& pulse_;
-    double silence_;
+    double timeout_;
 };
 
 } // namespace
@@ -185,7 +188,7 @@ bool has_mpi() {
     return true;
 }
 
-int run_in_mpi(const std::function<int(Communicator&)>& work, double silence) {
+int run_in_mpi(const std::function<int(Communicator&)>& work, double timeout) {
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_MULTIPLE, &provided);
     int rank = 0;
@@ -200,7 +203,7 @@ int run_in_mpi(const std::function<int(Communicator&)>& work, double silence) {
     std::exception_ptr error;
     {
         const Pulse pulse{rank, size};
-        MpiRank ranks{MPI_COMM_WORLD, pulse, silence, rank, size};
+        MpiRank ranks{MPI_COMM_WORLD, pulse, timeout, rank, size};
         try {
             result = work(ranks);
         } catch (...) {

@@ -256,6 +256,7 @@ private:
             start(std::move(checkpoint.state));
             return true;
         }
+        remove_unfinished_slab(case_.directory, checkpoint.state.slab);
         journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
         journal_->each_line([this](const std::string& line) {
             const Json slab = Json::parse(line);
