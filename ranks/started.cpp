@@ -51,8 +51,8 @@ double rank_timeout() {
     double seconds = 0;
     const char* end = text + std::strlen(text);
     const auto [read, error] = std::from_chars(text, end, seconds);
-    if (error != std::errc{} || read != end || !(seconds >= 2)) { // ranks tell each second that they live
-        throw UsageError{fmt::format("{}: \"{}\" is not a number of seconds, 2 or more", name, text)};
+    if (error != std::errc{} || read != end || !(seconds >= 4)) { // ranks tell each second that they live
+        throw UsageError{fmt::format("{}: \"{}\" is not a number of seconds, 4 or more", name, text)};
     }
     return seconds;
 }

@@ -182,16 +182,18 @@ TEMPLATE_TEST_CASE_SIG("bodies that meet between levels are findings with number
 TEMPLATE_TEST_CASE_SIG("ranks say of bodies that meet what one process says", "[embedding]", ((int D), D), 2,
                        3) {
     Hull<D> hull = specimens::swept(specimens::box_with_two_bodies<D>(), 2);
-    for (Point<D + 1>& p : hull.points) {
+    const auto place = [](const Point<D + 1>& p) { // of a vertex of the left body on the middle level
         const bool of_body = std::all_of(p.begin(), p.begin() + D, [](double x) { return x > 0 && x < 5; });
-        if (p[D] == 1.5 && of_body) {
-            p[0] = p[0] < 2.5 ? p[0] + 1.7 : p[0] - 1.7;
-        }
-    }
+        return p[D] == 1.5 && of_body && p[0] < 2.5 ? p[0] : 0;
+    };
+    (*std::max_element(hull.points.begin(), hull.points.end(), [&](const auto& a, const auto& b) {
+        return place(a) < place(b);
+    }))[0] += 1.1; // a little into the other
     CheckOptions options;
     options.most_findings = 1000;
     HullReport whole = check_hull<D>(hull, options);
     const auto alone = check_embedding<D>(columns_of(hull), options, whole);
+    REQUIRE(alone->all_listed);
     REQUIRE(whole.count(Defect::self_crossing) > 0);
     run_team(3, [&](Communicator& team) {
         const HullPart<D> part = tests::part_of<D>(

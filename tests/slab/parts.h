@@ -2,6 +2,7 @@
 // Meshes divided among ranks, for tests.
 #pragma once
 
+#include "geometry/embedding/embedded_caps.h"
 #include "slab/check/part_embedding.h"
 #include "slabhull/core/communicator.h"
 #include "slabhull/slab/hull_part.h"
@@ -94,8 +95,8 @@ void require_same_in_ranks(std::span<const Point<D + 1>> points, std::span<const
         std::vector<Crossing<D + 1>> crossings;
         for (const CrossingInHull<D>& crossing : each.crossings) {
             crossings.push_back(crossing.cells);
-            REQUIRE(crossing.times[0][0] <= crossing.cells.near[D]);
-            REQUIRE(crossing.cells.near[D] <= crossing.times[0][1]);
+            REQUIRE(crossing.times[0] == time_span<D>(points, {&cells[crossing.cells.first], 1}));
+            REQUIRE(crossing.times[1] == time_span<D>(points, {&cells[crossing.cells.second], 1}));
         }
         REQUIRE(each.all.caps_proven == whole.caps_proven);
         REQUIRE(each.all.tested_cells == whole.tested_cells);

@@ -95,15 +95,15 @@ class RanksTest(ProgramTest):
 
 class SameBytes(RanksTest):
     def test_in_space(self):
-        # each split once, and each number of ranks
-        for ranks, split in ((1, "C"), (2, "A"), (3, "B"), (4, "E"), (2, "D")):
+        # in all, each split once, and each number of ranks
+        for ranks, split in [(3, "B"), (4, "E")] + ([(1, "C"), (2, "A"), (2, "D")] if LARGE else []):
             with self.subTest(ranks=ranks, split=split):
                 text = sphere(split)
                 whole = self.alone(text, ranks, f"alone-{split}", blocks=True)
                 self.same_files(whole, self.in_ranks(ranks, self.case(text), out=f"ranks-{split}"))
 
     def test_in_the_plane(self):
-        for ranks, split in ((1, "diagonal"), (2, "centre"), (4, "diagonal")):
+        for ranks, split in ((2, "centre"), (4, "diagonal")):
             with self.subTest(ranks=ranks, split=split):
                 text = circle(split)
                 whole = self.alone(text, ranks, f"alone-{ranks}")
@@ -238,7 +238,7 @@ class Faults(RanksTest):
 
     def test_ranks_that_are_killed_at_random(self):
         slabs, rounds = 12, 20 if LARGE else 3
-        case = self.case_in_two_blocks(slabs)
+        case = self.case_in_two_blocks(slabs) if LARGE else self.case(circle("centre").replace("slabs = 2", f"slabs = {slabs}"))
         undisturbed = {}
         for ranks in (2, 3):
             begin = time.monotonic()
@@ -281,12 +281,12 @@ class Faults(RanksTest):
         self.assertEqual([slab["slab"] for slab in report["slabs"]], list(range(len(indices))))
 
     def test_a_rank_that_stops_answering(self):
-        run = self.start(3, self.case_in_two_blocks(400), self.dir / "out", SLABHULL_RANK_TIMEOUT="2")
+        run = self.start(3, self.case_in_two_blocks(400), self.dir / "out", SLABHULL_RANK_TIMEOUT="4")
         ranks = self.wait_for_ranks(run, 3)
         while self.accepted(self.dir / "out") < 1 and run.poll() is None:
             time.sleep(0.02)
         os.kill(ranks[1], signal.SIGSTOP)
-        told = self.ended(run, ranks, 15)
+        told = self.ended(run, ranks, 20)
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("not been heard of", our_lines(told)[0])
 
@@ -297,12 +297,12 @@ class Faults(RanksTest):
         self.assertIn("SLABHULL_RANK_TIMEOUT", told)
 
     def test_a_disk_that_is_full_for_one_rank(self):
-        case = self.case_in_two_blocks(3)
+        case = self.case(circle("centre").replace("slabs = 2", "slabs = 3"))
         undisturbed = {2: self.in_ranks(2, case, out="undisturbed")}
         out, disk = self.dir / "out", self.dir / "disk"
         out.mkdir()
         disk.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", disk], capture_output=True).returncode != 0:
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=32k", "tmpfs", disk], capture_output=True).returncode != 0:
             self.skipTest("a small file system cannot be mounted here")
         self.addCleanup(subprocess.run, ["umount", disk])
         (disk / "there.vtu").touch()

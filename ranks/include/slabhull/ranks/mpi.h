@@ -23,7 +23,7 @@ std::optional<StartedRank> started_by_mpirun();
 bool has_mpi();
 
 /// Seconds after which a silent rank counts as dead: SLABHULL_RANK_TIMEOUT of the environment, else 600.
-/// Throws UsageError for what is not a number of at least 2.
+/// Throws UsageError for what is not a number of at least 4.
 double rank_timeout();
 
 /// Runs `work` with the communicator of this process's rank and returns its result, an exit code, when all
