@@ -31,7 +31,8 @@ constexpr int data_tag = 2;
 /// silent.
 class Pulse {
 public:
-    Pulse(int rank, int size) : rank_{rank}, heard_(static_cast<std::size_t>(size)) {
+    Pulse(int rank, int size, double timeout)
+        : rank_{rank}, timeout_{timeout}, heard_(static_cast<std::size_t>(size)) {
         MPI_Comm_dup(MPI_COMM_WORLD, &world_);
         for (auto& heard : heard_) {
             heard = now();
@@ -52,12 +53,14 @@ public:
         MPI_Comm_free(&world_);
     }
 
-    /// Seconds since the most silent rank was heard, and which one that is.
+    /// Seconds for which the most silent rank was not heard, and which one that is. They count up to the last
+    /// time that this process has listened.
     std::pair<double, int> longest_silence() const {
+        const std::int64_t listened = listened_;
         double longest = 0;
         int which = rank_;
         for (std::size_t r = 0; r < heard_.size(); ++r) {
-            const double silent = static_cast<int>(r) == rank_ ? 0.0 : 1e-3 * static_cast<double>(now() - heard_[r]);
+            const double silent = static_cast<int>(r) == rank_ ? 0.0 : 1e-3 * static_cast<double>(listened - heard_[r]);
             if (silent > longest) {
                 longest = silent;
                 which = static_cast<int>(r);
@@ -88,7 +91,13 @@ private:
         }
     }
 
+    /// A process that was stopped itself has heard nobody meanwhile, and nothing follows from that.
     void listen() {
+        if (1e-3 * static_cast<double>(now() - listened_) > timeout_ / 2) {
+            for (auto& heard : heard_) {
+                heard = now();
+            }
+        }
         int there = 1;
         while (there != 0) {
             MPI_Status status;
@@ -98,11 +107,14 @@ private:
                 heard_[static_cast<std::size_t>(status.MPI_SOURCE)] = now();
             }
         }
+        listened_ = now();
     }
 
     int rank_;
+    double timeout_;
     MPI_Comm world_ = MPI_COMM_NULL;
     std::vector<std::atomic<std::int64_t>> heard_; ///< when, in milliseconds
+    std::atomic<std::int64_t> listened_{now()};
     std::mutex mutex_;
     std::condition_variable wake_;
     bool ended_ = false;
@@ -111,8 +123,8 @@ private:
 
 class MpiRank final : public Communicator {
 public:
-    MpiRank(MPI_Comm world, const Pulse& pulse, double silence, int rank, int size)
-        : Communicator{rank, size}, world_{world}, pulse_{pulse}, silence_{silence} {}
+    MpiRank(MPI_Comm world, const Pulse& pulse, double timeout, int rank, int size)
+        : Communicator{rank, size}, world_{world}, pulse_{pulse}, timeout_{timeout} {}
 
 protected:
     void exchange(const void* mine, std::size_t bytes, void* all) override {
@@ -165,9 +177,12 @@ private:
         }
     }
 
+    /// One rank tells of a silent one: the lowest that can, unless it does not come to it soon.
     void require_life() const {
+        constexpr double soon = 5;
         const auto [silent, which] = pulse_.longest_silence();
-        if (silent > silence_) {
+        const bool speaks = rank() == (which == 0 ? 1 : 0);
+        if (silent > timeout_ + (speaks ? 0 : soon)) {
             fmt::print(stderr, "slabhull: rank {} has not been heard of for {:.0f} s: all ranks end\n", which,
                        silent);
             MPI_Abort(world_, static_cast<int>(Failure::geometry));
@@ -176,7 +191,7 @@ private:
 
     MPI_Comm world_;
     const Pulse& pulse_;
-    double silence_;
+    double timeout_;
 };
 
 } // namespace
@@ -185,7 +200,7 @@ bool has_mpi() {
     return true;
 }
 
-int run_in_mpi(const std::function<int(Communicator&)>& work, double silence) {
+int run_in_mpi(const std::function<int(Communicator&)>& work, double timeout) {
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_MULTIPLE, &provided);
     int rank = 0;
@@ -199,8 +214,8 @@ int run_in_mpi(const std::function<int(Communicator&)>& work, double silence) {
     int result = 0;
     std::exception_ptr error;
     {
-        const Pulse pulse{rank, size};
-        MpiRank ranks{MPI_COMM_WORLD, pulse, silence, rank, size};
+        const Pulse pulse{rank, size, timeout};
+        MpiRank ranks{MPI_COMM_WORLD, pulse, timeout, rank, size};
         try {
             result = work(ranks);
         } catch (...) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/ranks/mpi.h"
 
+#include "slabhull/core/error.h"
+
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace slabhull {
 
@@ -37,6 +40,21 @@ std::optional<StartedRank> started_by_mpirun() {
         }
     }
     return std::nullopt;
+}
+
+double rank_timeout() {
+    constexpr const char* name = "SLABHULL_RANK_TIMEOUT";
+    const char* text = std::getenv(name);
+    if (text == nullptr) {
+        return 600;
+    }
+    double seconds = 0;
+    const char* end = text + std::strlen(text);
+    const auto [read, error] = std::from_chars(text, end, seconds);
+    if (error != std::errc{} || read != end || !(seconds >= 4)) { // ranks tell each second that they live
+        throw UsageError{fmt::format("{}: \"{}\" is not a number of seconds, 4 or more", name, text)};
+    }
+    return seconds;
 }
 
 } // namespace slabhull

@@ -95,7 +95,8 @@ int build(const BuildOptions& options) {
         set_thread_count(std::max(1, thread_count() / started->on_this_machine));
     }
     return run_in_mpi(
-        [&options](Communicator& ranks) { return together(ranks, [&] { return build(options, &ranks); }); });
+        [&options](Communicator& ranks) { return together(ranks, [&] { return build(options, &ranks); }); },
+        rank_timeout());
 }
 
 /// Where a page of the documentation is: installed beside this program, or in the repository.

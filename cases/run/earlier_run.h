@@ -17,4 +17,9 @@ inline constexpr const char* caps_series_name = "caps.pvd";
 /// the run's journal says that the run made such a slab; where there is no journal, no file goes.
 void remove_earlier_run(const std::filesystem::path& folder);
 
+/// Removes what a run that was ended left of slab `next`, the one to go on with: files that got their names
+/// before the checkpoint was written. They are made again, and another number of ranks would not replace
+/// each piece.
+void remove_unfinished_slab(const std::filesystem::path& folder, int next);
+
 } // namespace slabhull

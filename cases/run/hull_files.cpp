@@ -421,7 +421,7 @@ PartToWrite<D> part_to_write(const HullPart<D>& part, const HullOrder<D>& order,
                        order,
                        static_cast<std::size_t>(ranks.rank()),
                        static_cast<std::size_t>(ranks.size()),
-                       lowest_at_points(part, ranks, first_cells_here(part)),
+                       lowest_at_points<std::int64_t>(part, ranks, first_cells_here(part)),
                        {}};
     Box<3> box;
     for (const Point<D + 1>& point : part.points) {

@@ -256,6 +256,7 @@ private:
             start(std::move(checkpoint.state));
             return true;
         }
+        remove_unfinished_slab(case_.directory, checkpoint.state.slab);
         journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
         journal_->each_line([this](const std::string& line) {
             const Json slab = Json::parse(line);
@@ -270,7 +271,18 @@ private:
     void start(MarchState<D>&& state) {
         prepare(state.boundary, state.cap, state.time);
         patches_ = state.cap.patches;
+        if (ranks_ != nullptr) {
+            divide_cells(state);
+        }
         march_.emplace(std::move(state), std::move(settings_->slab));
+    }
+
+    /// Gives each rank a range of the cap's cells, which the first rank has.
+    void divide_cells(MarchState<D>& state) const {
+        CapCells<D> cells = take_cells(state.cap, *ranks_);
+        const auto rank = static_cast<std::size_t>(ranks_->rank());
+        const auto count = static_cast<std::size_t>(ranks_->size());
+        state.cells = redistributed(std::move(cells), range_of_part(cells.all, rank, count), *ranks_);
     }
 
     /// Reads the settings, once there is a boundary, and begins with the caps that follow from that alone.
@@ -381,6 +393,9 @@ private:
             built.sound = require_sound(slab, clock);
             built.files.stage->show();
             wait_for(built.files.written);
+            if (slab.part) {
+                write_cap_of_ranks(built.slab, built.files);
+            }
         });
         clock.book("writing");
         built.clock.add(clock);
@@ -498,8 +513,9 @@ private:
         constexpr double many = 5e7;
         const auto facets = march_->state().boundary.facets().size();
         const double simplices = side_simplex_count(facets, layers, case_.split);
-        meter_.expect_seconds((simplices + 2 * static_cast<double>(march_->state().cap.cells.size())) /
-                              simplices_per_second);
+        const MarchState<D>& state = march_->state();
+        const std::size_t cap_cells = state.cells ? state.cells->all : state.cap.cells.size();
+        meter_.expect_seconds((simplices + 2 * static_cast<double>(cap_cells)) / simplices_per_second);
         if (!case_.layers_follow_motion() && simplices > many) {
             listener_.warning(fmt::format("slab {}: {} facets in {} layers make a side of {:.2g} simplices; "
                                           "that takes some {:.2g} GB and {:.0f} minutes",
@@ -686,20 +702,28 @@ private:
         files.cap_checksum = cap.checksum();
     }
 
-    /// This rank's part. The first rank writes the cap, too.
+    /// This rank's part.
     void write(const Slab<D>& slab, const PartToWrite<D>& part, SlabFiles& files) const {
         for (const std::string& format : case_.formats) {
             write_part(files.open, path_of(slab_name(slab.hull.slab, format)), part, format,
                        case_.writing_of(format));
             files.open.finish();
         }
-        if (first()) {
-            io::AtomicFile& cap = files.open.open(path_of(cap_name(slab.hull.slab + 1)));
-            cap.keep_checksum();
-            write_cap(cap, *slab.cap, slab.hull.time[1]);
-            cap.finish();
-            files.cap_checksum = cap.checksum();
+    }
+
+    /// The first rank writes the cap, whose cells it collects for that.
+    void write_cap_of_ranks(Slab<D>& slab, SlabFiles& files) const {
+        Array<Simplex<D>> cells = all_cells_on_first(terminating_cells_of(*slab.part, slab.hull), *ranks_);
+        if (!first()) {
+            return;
         }
+        slab.cap->cells.swap(cells);
+        io::AtomicFile& cap = files.open.open(path_of(cap_name(slab.hull.slab + 1)));
+        cap.keep_checksum();
+        write_cap(cap, *slab.cap, slab.hull.time[1]);
+        cap.finish();
+        files.cap_checksum = cap.checksum();
+        slab.cap->cells.swap(cells);
     }
 
     static Json report_of_initial(const SpatialMesh<D>& cap, const StageClock& clock) {

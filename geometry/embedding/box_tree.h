@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -82,6 +83,13 @@ public:
     }
 
     std::size_t blocks() const { return levels_.front().size(); }
+    /// Boxes that together hold all items, at most so many (but at least one).
+    std::span<const Box<D>> at_most(std::size_t count) const {
+        const auto level = std::find_if(levels_.begin(), levels_.end(), [count](const Array<Box<D>>& boxes) {
+            return boxes.size() <= count;
+        });
+        return level == levels_.end() ? levels_.back() : *level;
+    }
 
     /// Calls visit(item) for each item whose box meets `box`.
     template<class Visit>

@@ -110,14 +110,42 @@ private:
 } // namespace
 
 template<int D>
+std::vector<std::uint8_t> group_sizes(std::span<const Simplex<D>> cells, const std::vector<bool>& test) {
+    return parallel_gather<std::uint8_t>(
+        test.size(), grain, [&](std::size_t begin, std::size_t end, std::vector<std::uint8_t>& sizes) {
+            sizes = PrismFinder<D>{cells, test}.cut(begin, end);
+        });
+}
+
+template<int D>
 CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
                           const std::vector<bool>& test)
     : all_cells_{cells} {
     cells_before_.push_back(0);
-    find_prisms(test);
+    add_prisms(test);
     tested_ = first_cell_.size();
     add_touching(test);
-    first_cell_.push_back(static_cast<Index>(cells.size())); // keeps count() simple
+    finish(vertex_count);
+}
+
+template<int D>
+CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
+                          std::span<const std::uint8_t> sizes)
+    : all_cells_{cells} {
+    cells_before_.push_back(0);
+    for (const std::uint8_t size : sizes) {
+        add_group(cells_before_.back(), size);
+    }
+    tested_ = first_cell_.size();
+    while (cells_before_.back() < cells.size()) {
+        add_group(cells_before_.back(), 1);
+    }
+    finish(vertex_count);
+}
+
+template<int D>
+void CellGroups<D>::finish(std::size_t vertex_count) {
+    first_cell_.push_back(static_cast<Index>(all_cells_.size())); // keeps count() simple
     list_vertices();
     list_groups(vertex_count);
 }
@@ -129,14 +157,11 @@ void CellGroups<D>::add_group(std::size_t first, std::size_t count) {
 }
 
 template<int D>
-void CellGroups<D>::find_prisms(const std::vector<bool>& test) {
+void CellGroups<D>::add_prisms(const std::vector<bool>& test) {
     const auto start = static_cast<std::size_t>(std::find(test.begin(), test.end(), true) - test.begin());
-    const std::size_t all = test.size() - start;
-    const auto cut = [&](std::size_t begin, std::size_t end, std::vector<std::uint8_t>& counts) {
-        counts = PrismFinder<D>{all_cells_, test}.cut(start + begin, start + end);
-    };
     std::size_t c = start;
-    for (const std::size_t count : parallel_gather<std::uint8_t>(all, grain, cut)) {
+    const std::vector<bool> from_start{test.begin() + static_cast<std::ptrdiff_t>(start), test.end()};
+    for (const std::uint8_t count : group_sizes<D>(all_cells_.subspan(start), from_start)) {
         if (count > 0) {
             add_group(c, count);
         }
@@ -220,6 +245,8 @@ std::span<const Index> CellGroups<D>::tested_groups_of(Index vertex) const {
     return all.first(static_cast<std::size_t>(end - all.begin()));
 }
 
+template std::vector<std::uint8_t> group_sizes<2>(std::span<const Simplex<2>>, const std::vector<bool>&);
+template std::vector<std::uint8_t> group_sizes<3>(std::span<const Simplex<3>>, const std::vector<bool>&);
 template class CellGroups<2>;
 template class CellGroups<3>;
 

@@ -26,6 +26,10 @@ public:
 
     /// `test`: one flag per cell.
     CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, const std::vector<bool>& test);
+    /// Groups that are known: `sizes` are those of the tested ones, which the first cells are in. The cells
+    /// after these are not tested.
+    CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
+               std::span<const std::uint8_t> sizes);
 
     std::size_t tested() const { return tested_; }
     std::size_t count() const { return first_cell_.size() - 1; }
@@ -47,9 +51,10 @@ public:
     std::span<const Index> tested_groups_of(Index vertex) const;
 
 private:
-    void find_prisms(const std::vector<bool>& test);
+    void add_prisms(const std::vector<bool>& test);
     void add_touching(const std::vector<bool>& test);
     void add_group(std::size_t first, std::size_t count);
+    void finish(std::size_t vertex_count);
     void list_vertices();
     void list_groups(std::size_t vertex_count);
 
@@ -62,6 +67,10 @@ private:
     Array<std::size_t> first_group_;
     Array<Index> groups_;
 };
+
+/// The numbers of cells of the groups of tested cells, in order; 0 for each cell that is not tested.
+template<int D>
+std::vector<std::uint8_t> group_sizes(std::span<const Simplex<D>> cells, const std::vector<bool>& test);
 
 extern template class CellGroups<2>;
 extern template class CellGroups<3>;

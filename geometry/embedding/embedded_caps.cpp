@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/embedding/embedded_caps.h"
 
+#include "core/pieces.h"
 #include "geometry/basics/predicates.h"
 
 #include "slabhull/core/error.h"
@@ -26,103 +27,30 @@ Point<D> in_space(const Point<D + 1>& p) {
 }
 
 template<int D>
-class CapProof {
+int sign_of(const Simplex<D>& cell, std::span<const Point<D + 1>> points) {
+    std::array<Point<D>, D + 1> corners;
+    for (std::size_t i = 0; i <= D; ++i) {
+        corners[i] = in_space<D>(points[cell[i]]);
+    }
+    return exact::orientation(corners);
+}
+
+std::array<Index, 2> edge(Index a, Index b) {
+    return {std::min(a, b), std::max(a, b)};
+}
+
+template<int D>
+class SideCheck {
 public:
-    CapProof(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-             const AdjacencyView<D>& adjacency, std::span<const CapOf> caps)
-        : points_{points}, cells_{cells}, neighbors_{adjacency.neighbors}, caps_{caps} {}
+    SideCheck(const CellsInCaps<D>& hull, double time, std::span<const Index> on_boundary,
+              std::span<const std::array<Index, 2>> edges)
+        : hull_{hull}, time_{time}, on_boundary_{on_boundary}, edges_{edges} {}
 
-    bool holds(CapOf cap) {
-        const int sign = common_sign(cap);
-        return sign != 0 && bounds_domain(cap, sign) && side_keeps_to_boundary(cap);
-    }
-
-private:
-    /// Common sign of all cells of the cap in space; 0 if signs differ, a cell is flat or there is none.
-    int common_sign(CapOf cap) const {
-        std::atomic<bool> positive = false;
-        std::atomic<bool> negative = false;
-        std::atomic<bool> flat = false;
-        parallel_for(cells_.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c) {
-                if (caps_[c] == cap) {
-                    const int sign = sign_of(cells_[c]);
-                    (sign > 0 ? positive : sign < 0 ? negative : flat) = true;
-                }
-            }
-        });
-        return flat ? 0 : int{positive} - int{negative};
-    }
-
-    int sign_of(const Simplex<D>& cell) const {
-        std::array<Point<D>, D + 1> corners;
-        for (std::size_t i = 0; i <= D; ++i) {
-            corners[i] = in_space<D>(points_[cell[i]]);
-        }
-        return exact::orientation(corners);
-    }
-
-    bool outer(std::size_t c, std::size_t i, CapOf cap) const {
-        const Index across = neighbors_[c][i];
-        return across == no_index || caps_[across] != cap;
-    }
-
-    bool bounds_domain(CapOf cap, int sign) {
-        Surface<D> surface;
-        on_boundary_.assign(points_.size(), no_index);
-        for (std::size_t c = 0; c < cells_.size(); ++c) {
-            for (std::size_t i = 0; i <= D && caps_[c] == cap; ++i) {
-                if (outer(c, i, cap)) {
-                    Facet<D> facet = outward_facet<D>(cells_[c], static_cast<int>(i));
-                    if (sign < 0) {
-                        std::swap(facet[0], facet[1]);
-                    }
-                    surface.facets.push_back(numbered(facet, surface));
-                }
-            }
-        }
-        find_edges(surface);
-        try { // the reasons are not needed: the pairs of cells will be reported
-            require_domain_boundary(surface, {}, false);
-            return true;
-        } catch (const GeometryError&) {
-            return false;
-        }
-    }
-
-    Facet<D> numbered(Facet<D> facet, Surface<D>& surface) {
-        for (Index& v : facet) {
-            if (on_boundary_[v] == no_index) {
-                on_boundary_[v] = static_cast<Index>(surface.points.size());
-                surface.points.push_back(in_space<D>(points_[v]));
-            }
-            v = on_boundary_[v];
-        }
-        return facet;
-    }
-
-    static std::array<Index, 2> edge(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
-
-    /// For D = 2 the facets are the edges.
-    void find_edges(const Surface<D>& surface) {
-        edges_.clear();
-        for (const Facet<D>& facet : surface.facets) {
-            for (std::size_t i = 0; i < D; ++i) {
-                for (std::size_t j = 0; j < i; ++j) {
-                    edges_.push_back(edge(facet[i], facet[j]));
-                }
-            }
-        }
-        std::sort(edges_.begin(), edges_.end());
-        edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-    }
-
-    bool side_keeps_to_boundary(CapOf cap) const {
-        const double time = time_of(cap);
+    bool holds() const {
         std::atomic<bool> all = true;
-        parallel_for(cells_.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        parallel_for(hull_.cells.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
-                if (caps_[c] == CapOf::none && !face_on_boundary(c, time)) {
+                if (hull_.caps[c] == CapOf::none && !face_on_boundary(c)) {
                     all = false;
                 }
             }
@@ -130,19 +58,15 @@ private:
         return all;
     }
 
-    double time_of(CapOf cap) const {
-        const auto cell = std::find(caps_.begin(), caps_.end(), cap) - caps_.begin();
-        return points_[cells_[static_cast<std::size_t>(cell)][0]][D];
-    }
-
+private:
     /// Whether the vertices of a side cell at the cap's time span a face of the cap's boundary.
-    bool face_on_boundary(std::size_t c, double time) const {
+    bool face_on_boundary(std::size_t c) const {
         std::array<Index, D + 1> at{};
         std::size_t count = 0;
         std::size_t off = 0; ///< a local vertex that is not at this time
         for (std::size_t i = 0; i <= D; ++i) {
-            if (points_[cells_[c][i]][D] == time) {
-                at[count++] = on_boundary_[cells_[c][i]];
+            if (hull_.points[hull_.cells[c][i]][D] == time_) {
+                at[count++] = on_boundary_[hull_.cells[c][i]];
             } else {
                 off = i;
             }
@@ -151,55 +75,178 @@ private:
             return false;
         }
         if (count == D) {
-            const Index across = neighbors_[c][off];
-            return across != no_index && caps_[across] != CapOf::none;
+            const Index across = hull_.neighbors[c][off];
+            return across != no_index && hull_.caps[across] != CapOf::none;
         }
         return count < 2 || std::binary_search(edges_.begin(), edges_.end(), edge(at[0], at[1]));
     }
 
-    std::span<const Point<D + 1>> points_;
-    std::span<const Simplex<D>> cells_;
-    std::span<const Neighbors<D>> neighbors_;
-    std::span<const CapOf> caps_;
-    std::vector<Index> on_boundary_; ///< number of each vertex in the cap's boundary, no_index off it
-    std::vector<std::array<Index, 2>> edges_; ///< of the cap's boundary, sorted
+    const CellsInCaps<D>& hull_;
+    double time_;
+    std::span<const Index> on_boundary_;
+    std::span<const std::array<Index, 2>> edges_;
 };
+
+/// Numbers the points of facets in the order of their first use, and lists them.
+template<int D>
+Array<Point<D>> number_points(Array<Facet<D>>& facets, std::span<const Point<D + 1>> points,
+                              Array<Index>& on_boundary) {
+    Array<Point<D>> used;
+    on_boundary.assign(points.size(), no_index);
+    for (Facet<D>& facet : facets) {
+        for (Index& v : facet) {
+            if (on_boundary[v] == no_index) {
+                on_boundary[v] = static_cast<Index>(used.size());
+                used.push_back(in_space<D>(points[v]));
+            }
+            v = on_boundary[v];
+        }
+    }
+    return used;
+}
+
+template<int D>
+bool cap_is_embedded(const CellsInCaps<D>& hull, CapOf cap, double time) {
+    const int sign = signs_of_cap<D>(hull, cap).common();
+    if (sign == 0) {
+        return false;
+    }
+    Array<Facet<D>> facets = outer_facets<D>(hull, cap);
+    Array<Index> on_boundary;
+    Array<Point<D>> points = number_points<D>(facets, hull.points, on_boundary);
+    const auto edges = edges_of<D>(facets);
+    return bound_a_domain<D>(std::move(facets), std::move(points), sign) &&
+           side_keeps_to<D>(hull, time, on_boundary, edges);
+}
 
 } // namespace
 
 template<int D>
-std::vector<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
-    double first = std::numeric_limits<double>::infinity();
-    double last = -first;
+std::array<double, 2> time_span(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
+    std::array<double, 2> times{std::numeric_limits<double>::infinity(),
+                                -std::numeric_limits<double>::infinity()};
     for (const Simplex<D>& cell : cells) {
         for (const Index v : cell) {
-            first = std::min(first, points[v][D]);
-            last = std::max(last, points[v][D]);
+            times = {std::min(times[0], points[v][D]), std::max(times[1], points[v][D])};
         }
     }
+    return times;
+}
+
+template<int D>
+std::vector<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+                             const std::array<double, 2>& times) {
     std::vector<CapOf> caps(cells.size(), CapOf::none);
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const auto all_at = [&](double time) {
             return std::all_of(cells[c].begin(), cells[c].end(),
                                [&](Index v) { return points[v][D] == time; });
         };
-        caps[c] = all_at(first) ? CapOf::first : all_at(last) ? CapOf::last : CapOf::none;
+        caps[c] = all_at(times[0]) ? CapOf::first : all_at(times[1]) ? CapOf::last : CapOf::none;
     }
     return caps;
 }
 
 template<int D>
-bool caps_are_embedded(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-                       const AdjacencyView<D>& adjacency, std::span<const CapOf> caps) {
-    CapProof<D> proof{points, cells, adjacency, caps};
-    return adjacency.defects.empty() && proof.holds(CapOf::first) && proof.holds(CapOf::last);
+CapSigns signs_of_cap(const CellsInCaps<D>& hull, CapOf cap) {
+    std::atomic<bool> positive = false;
+    std::atomic<bool> negative = false;
+    std::atomic<bool> flat = false;
+    parallel_for(hull.cells.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            if (hull.caps[c] == cap) {
+                const int sign = sign_of<D>(hull.cells[c], hull.points);
+                (sign > 0 ? positive : sign < 0 ? negative : flat) = true;
+            }
+        }
+    });
+    return {positive, negative, flat};
 }
 
-template std::vector<CapOf> find_caps<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
-template std::vector<CapOf> find_caps<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
+template<int D>
+Array<Facet<D>> outer_facets(const CellsInCaps<D>& hull, CapOf cap) {
+    Array<Facet<D>> facets;
+    for (std::size_t c = 0; c < hull.cells.size(); ++c) {
+        for (std::size_t i = 0; i <= D && hull.caps[c] == cap; ++i) {
+            const Index across = hull.neighbors[c][i];
+            if (across == no_index || hull.caps[across] != cap) {
+                facets.push_back(outward_facet<D>(hull.cells[c], static_cast<int>(i)));
+            }
+        }
+    }
+    return facets;
+}
+
+template<int D>
+bool bound_a_domain(Array<Facet<D>> facets, Array<Point<D>> points, int sign) {
+    if (sign < 0) {
+        for (Facet<D>& facet : facets) {
+            std::swap(facet[0], facet[1]);
+        }
+    }
+    Surface<D> surface;
+    surface.points = std::move(points);
+    surface.facets = std::move(facets);
+    try { // the reasons are not needed: the pairs of cells will be reported
+        require_domain_boundary(surface, {}, false);
+        return true;
+    } catch (const GeometryError&) {
+        return false;
+    }
+}
+
+template<int D>
+std::vector<std::array<Index, 2>> edges_of(std::span<const Facet<D>> facets) {
+    std::vector<std::array<Index, 2>> edges;
+    for (const Facet<D>& facet : facets) {
+        for (std::size_t i = 0; i < D; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                edges.push_back(edge(facet[i], facet[j]));
+            }
+        }
+    }
+    sort_out(edges);
+    return edges;
+}
+
+template<int D>
+bool side_keeps_to(const CellsInCaps<D>& hull, double time, std::span<const Index> on_boundary,
+                   std::span<const std::array<Index, 2>> edges) {
+    return SideCheck<D>{hull, time, on_boundary, edges}.holds();
+}
+
+template<int D>
+bool caps_are_embedded(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+                       const AdjacencyView<D>& adjacency, std::span<const CapOf> caps,
+                       const std::array<double, 2>& times) {
+    const CellsInCaps<D> hull{points, cells, adjacency.neighbors, caps};
+    return adjacency.defects.empty() && cap_is_embedded<D>(hull, CapOf::first, times[0]) &&
+           cap_is_embedded<D>(hull, CapOf::last, times[1]);
+}
+
+template std::array<double, 2> time_span<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
+template std::vector<CapOf> find_caps<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
+                                         const std::array<double, 2>&);
 template bool caps_are_embedded<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
-                                   const AdjacencyView<2>&, std::span<const CapOf>);
+                                   const AdjacencyView<2>&, std::span<const CapOf>,
+                                   const std::array<double, 2>&);
+template CapSigns signs_of_cap<2>(const CellsInCaps<2>&, CapOf);
+template Array<Facet<2>> outer_facets<2>(const CellsInCaps<2>&, CapOf);
+template bool bound_a_domain<2>(Array<Facet<2>>, Array<Point<2>>, int);
+template std::vector<std::array<Index, 2>> edges_of<2>(std::span<const Facet<2>>);
+template bool side_keeps_to<2>(const CellsInCaps<2>&, double, std::span<const Index>,
+                               std::span<const std::array<Index, 2>>);
+template std::array<double, 2> time_span<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
+template std::vector<CapOf> find_caps<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
+                                         const std::array<double, 2>&);
 template bool caps_are_embedded<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
-                                   const AdjacencyView<3>&, std::span<const CapOf>);
+                                   const AdjacencyView<3>&, std::span<const CapOf>,
+                                   const std::array<double, 2>&);
+template CapSigns signs_of_cap<3>(const CellsInCaps<3>&, CapOf);
+template Array<Facet<3>> outer_facets<3>(const CellsInCaps<3>&, CapOf);
+template bool bound_a_domain<3>(Array<Facet<3>>, Array<Point<3>>, int);
+template std::vector<std::array<Index, 2>> edges_of<3>(std::span<const Facet<3>>);
+template bool side_keeps_to<3>(const CellsInCaps<3>&, double, std::span<const Index>,
+                               std::span<const std::array<Index, 2>>);
 
 } // namespace slabhull

@@ -3,6 +3,7 @@
 #include "geometry/meshing/cap_limits.h"
 #include "geometry/meshing/solid_mesher.h"
 
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/embedding.h"
 #include "slabhull/geometry/mesh_order.h"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <utility>
 
 namespace slabhull {
 
@@ -40,6 +42,14 @@ void require_sane(const CapOptions& options) {
     }
 }
 
+CapMesh<3> finished(CapMesh<3> mesh, const Surface<3>& surface, const CapOptions& options) {
+    if (options.curve_order) {
+        order_along_curve<3>(mesh, surface.points.size());
+    }
+    verify_cap(mesh, surface);
+    return mesh;
+}
+
 } // namespace
 
 template<>
@@ -60,12 +70,16 @@ CapMesh<3> mesh_cap<3>(const Boundary<3>& boundary, const Surface<3>& surface, c
     }
     const SizeField<3> size{surface.points, boundary_spacing<3>(surface.points, surface.facets),
                             options.grading};
-    CapMesh<3> mesh = mesh_in_blocks(boundary, surface, size, options);
-    if (options.curve_order) {
-        order_along_curve<3>(mesh, surface.points.size());
+    if (options.ranks == nullptr) {
+        return finished(mesh_in_blocks(boundary, surface, size, options), surface, options);
     }
-    verify_cap(mesh, surface);
-    return mesh;
+    return together(*options.ranks, [&] {
+        CapMesh<3> mesh = mesh_in_blocks(boundary, surface, size, options);
+        if (options.ranks->first()) {
+            mesh = finished(std::move(mesh), surface, options);
+        }
+        return with_shared_points(std::move(mesh), *options.ranks);
+    });
 }
 
 } // namespace slabhull

@@ -149,66 +149,69 @@ std::vector<MeshedBlock> mesh_blocks(const DomainBlocks& blocks, std::size_t fir
     return meshed;
 }
 
-/// The mesh of each rank, on all of them.
-std::vector<CapMesh<3>> gather_meshes(Communicator& ranks, const CapMesh<3>& mine) {
-    auto points = ranks.all_gather<Point<3>>(mine.points);
-    auto cells = ranks.all_gather<Simplex<3>>(mine.cells);
-    auto neighbors = ranks.all_gather<Neighbors<3>>(mine.neighbors);
-    std::vector<CapMesh<3>> all(points.size());
-    for (std::size_t r = 0; r < all.size(); ++r) {
-        all[r].points = std::move(points[r]);
-        all[r].cells = std::move(cells[r]);
-        all[r].neighbors = std::move(neighbors[r]);
-    }
-    return all;
+/// The mesh that rank `from` has, on the first rank; elsewhere none. Collective.
+CapMesh<3> brought_to_first(Communicator& ranks, int from, CapMesh<3>& mesh) {
+    const auto bring = [&]<class T>(Array<T>& list) {
+        std::vector<Array<T>> to(static_cast<std::size_t>(ranks.size()));
+        if (ranks.rank() == from) {
+            to.front().swap(list);
+        }
+        return std::move(ranks.all_to_all(to)[static_cast<std::size_t>(from)]);
+    };
+    CapMesh<3> here;
+    here.points = bring(mesh.points);
+    here.cells = bring(mesh.cells);
+    here.neighbors = bring(mesh.neighbors);
+    return here;
 }
 
-/// The same, one block by each rank; all get all of them.
-std::vector<MeshedBlock> mesh_blocks_in_ranks(const DomainBlocks& blocks, std::size_t first,
-                                              std::size_t count, const SizeField<3>& size,
-                                              const CapOptions& options) {
+/// Consecutive blocks from `first` on, one by each rank. The first rank joins them, one at a time.
+void join_blocks_of_ranks(const DomainBlocks& blocks, std::size_t first, std::size_t count,
+                          const SizeField<3>& size, const CapOptions& options, BlockJoiner& joiner) {
     Communicator& ranks = *options.ranks;
     const auto mine = static_cast<std::size_t>(ranks.rank());
-    const MeshedBlock own = together(ranks, [&] {
+    MeshedBlock own = together(ranks, [&] {
         return mine < count ? mesh_block(blocks, first + mine, size, options) : MeshedBlock{};
     });
-    std::vector<CapMesh<3>> meshes = gather_meshes(ranks, own.mesh);
-    std::vector<MeshedBlock> all(count);
     for (std::size_t k = 0; k < count; ++k) {
-        all[k] = {surface_of_block(blocks.points, blocks.facets[first + k]), std::move(meshes[k])};
+        const CapMesh<3> block = brought_to_first(ranks, static_cast<int>(k), own.mesh);
+        if (ranks.first()) {
+            joiner.add(surface_of_block(blocks.points, blocks.facets[first + k]), block);
+        }
     }
-    return all;
+}
+
+void join_blocks(const DomainBlocks& blocks, std::size_t first, std::size_t count, const SizeField<3>& size,
+                 const CapOptions& options, BlockJoiner& joiner) {
+    for (MeshedBlock& block : mesh_blocks(blocks, first, count, size, options)) {
+        joiner.add(block.surface, block.mesh);
+        block = {};
+    }
 }
 
 CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, const CapOptions& options,
                          std::size_t at_once, double expected_cells, const Surface<3>& boundary) {
-    BlockJoiner joiner{blocks, static_cast<std::size_t>(expected_cells)};
+    const bool joins = options.ranks == nullptr || options.ranks->first();
+    BlockJoiner joiner{blocks, joins ? static_cast<std::size_t>(expected_cells) : 0};
     for (std::size_t first = 0; first < blocks.facets.size(); first += at_once) {
         const std::size_t count = std::min(at_once, blocks.facets.size() - first);
-        std::vector<MeshedBlock> meshed = options.ranks != nullptr
-                                              ? mesh_blocks_in_ranks(blocks, first, count, size, options)
-                                              : mesh_blocks(blocks, first, count, size, options);
-        for (MeshedBlock& block : meshed) {
-            joiner.add(block.surface, block.mesh);
-            block = {};
-        }
+        options.ranks != nullptr ? join_blocks_of_ranks(blocks, first, count, size, options, joiner)
+                                 : join_blocks(blocks, first, count, size, options, joiner);
     }
-    CapMesh<3> mesh = joiner.finish(boundary.facets.size());
-    repair_slivers(mesh, boundary.points.size(), options.min_dihedral); // interfaces may move now
+    CapMesh<3> mesh;
+    if (joins) {
+        mesh = joiner.finish(boundary.facets.size());
+        repair_slivers(mesh, boundary.points.size(), options.min_dihedral); // interfaces may move now
+    }
     mesh.blocks = static_cast<int>(blocks.facets.size());
     return mesh;
 }
 
-/// Meshes in one block: in ranks, the first does for all.
+/// Meshes in one block: in ranks, the first does.
 CapMesh<3> mesh_whole(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                       const CapOptions& options) {
-    if (options.ranks == nullptr) {
-        return fill(boundary, surface, size, options);
-    }
-    const CapMesh<3> mine = together(*options.ranks, [&] {
-        return options.ranks->first() ? fill(boundary, surface, size, options) : CapMesh<3>{};
-    });
-    return std::move(gather_meshes(*options.ranks, mine).front());
+    const bool here = options.ranks == nullptr || options.ranks->first();
+    return here ? fill(boundary, surface, size, options) : CapMesh<3>{};
 }
 
 /// How many blocks are meshed at the same time.

@@ -11,7 +11,8 @@ inline constexpr int most_blocks = 4096;
 /// Meshes a domain with the mesher and number of blocks given by `options` (see cut_domain()). Each block has
 /// its own process; as many run at once as there are threads and memory allows. The result is in the order of
 /// the blocks. `options.blocks` of 0: one block if its memory is available, else 2, 4, 8 ..., so that two at
-/// once fit. Needs: the boundary of a domain, see require_domain_boundary().
+/// once fit. In ranks, the mesh is made on the first of them, the others' result is empty. Needs: the
+/// boundary of a domain, see require_domain_boundary().
 CapMesh<3> mesh_in_blocks(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                           const CapOptions& options);
 

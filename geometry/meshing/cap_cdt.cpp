@@ -4,7 +4,9 @@
 #include "geometry/meshing/constrained_delaunay.h"
 #include "geometry/meshing/delaunay_refinement.h"
 
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/error.h"
+#include "slabhull/core/progress.h"
 #include "slabhull/geometry/cap_mesher.h"
 #include "slabhull/geometry/mesh_order.h"
 
@@ -32,10 +34,7 @@ double countable_cubes(const SizeField<2>& field) {
     return cubes;
 }
 
-} // namespace
-
-template<>
-CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
+CapMesh<2> mesh_alone(const Surface<2>& surface, const CapOptions& options) {
     CapMesh<2> mesh = constrained_delaunay(surface);
     require_attainable<2>(surface, options.grading.largest);
     const std::span<const Point<2>> points{surface.points};
@@ -46,6 +45,19 @@ CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
     order_along_curve<2>(mesh, surface.points.size());
     verify_cap<2>(mesh, surface);
     return mesh;
+}
+
+} // namespace
+
+template<>
+CapMesh<2> mesh_cap<2>(const Surface<2>& surface, const CapOptions& options) {
+    if (options.ranks == nullptr) {
+        return mesh_alone(surface, options);
+    }
+    return together(*options.ranks, [&] {
+        return with_shared_points(options.ranks->first() ? mesh_alone(surface, options) : CapMesh<2>{},
+                                  *options.ranks);
+    });
 }
 
 template<>

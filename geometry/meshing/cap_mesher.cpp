@@ -6,6 +6,7 @@
 #include "geometry/basics/predicates.h"
 #include "geometry/embedding/facet_names.h"
 
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/geometry/measures.h"
@@ -272,6 +273,21 @@ void verify_cap(const CapMesh<D>& mesh, const Surface<D>& surface) {
     CapInspection<D>{mesh, surface}.run();
 }
 
+template<int D>
+CapMesh<D> with_shared_points(CapMesh<D> mesh, Communicator& ranks) {
+    mesh.blocks = ranks.gather(mesh.blocks).front();
+    Array<Point<D>> points = ranks.broadcast<Point<D>>(mesh.points, 0);
+    if (ranks.first()) {
+        return mesh; // with the points that it has
+    }
+    CapMesh<D> shared;
+    shared.points = std::move(points);
+    shared.blocks = mesh.blocks;
+    return shared;
+}
+
+template CapMesh<2> with_shared_points<2>(CapMesh<2>, Communicator&);
+template CapMesh<3> with_shared_points<3>(CapMesh<3>, Communicator&);
 template void verify_cap<2>(const CapMesh<2>&, const Surface<2>&);
 template void verify_cap<3>(const CapMesh<3>&, const Surface<3>&);
 

@@ -2,6 +2,7 @@
 #include "slabhull/slab/check_embedding.h"
 
 #include "slab/check/findings.h"
+#include "slab/check/part_embedding.h"
 
 #include "slabhull/core/progress.h"
 #include "slabhull/geometry/hull_embedding.h"
@@ -11,7 +12,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <string>
+#include <utility>
 
 namespace slabhull {
 
@@ -20,47 +23,84 @@ namespace {
 /// Most crossings that are searched for: a body that moves through another has thousands.
 constexpr std::size_t most_crossings = 300;
 
+/// One of two cells that cross, as a message names it.
+struct NamedCell {
+    std::int64_t number; ///< the user's
+    std::string patch;   ///< empty: none
+    std::array<double, 2> times;
+};
+
+/// "cell 812 (patch rotor, t = 0.25 to 0.5)"
+std::string text_of(const NamedCell& cell) {
+    const auto [first, last] = cell.times;
+    const std::string times =
+        first == last ? fmt::format("t = {:.6g}", first) : fmt::format("t = {:.6g} to {:.6g}", first, last);
+    const std::string patch = cell.patch.empty()                 ? ""
+                              : cell.patch.starts_with("patch ") ? cell.patch + ", "
+                                                                 : "patch " + cell.patch + ", ";
+    return fmt::format("cell {} ({}{})", cell.number, patch, times);
+}
+
+/// Adds crossings to the findings. `patch_of` gives the number of a cell's patch; none if it is not positive.
 template<int D>
 class CrossingNames {
 public:
-    CrossingNames(const HullColumns<D>& hull, const Findings& findings) : hull_{hull}, findings_{findings} {}
+    CrossingNames(Findings& findings, const PatchList& patches,
+                  std::function<std::int64_t(Index cell)> patch_of)
+        : findings_{findings}, patches_{patches}, patch_of_{std::move(patch_of)} {}
 
-    std::string text(const Crossing<D + 1>& crossing) const {
+    void add(const Crossing<D + 1>& crossing, const std::array<std::array<double, 2>, 2>& times) {
+        const std::array<Index, 2> both{crossing.first, crossing.second};
         const auto& at = crossing.near;
-        return fmt::format("{} and {} meet at t = {:.6g} near ({:.6g})", name(crossing.first),
-                           name(crossing.second), at[D], fmt::join(at.begin(), at.begin() + D, ", "));
+        findings_.other(Defect::self_crossing, findings_.cell_entities(both),
+                        fmt::format("{} and {} meet at t = {:.6g} near ({:.6g})",
+                                    text_of(named(both[0], times[0])), text_of(named(both[1], times[1])),
+                                    at[D], fmt::join(at.begin(), at.begin() + D, ", ")));
     }
 
 private:
-    /// "cell 812 (patch rotor, t = 0.25 to 0.5)"
-    std::string name(Index cell) const {
-        double first = hull_.points[hull_.cells[cell][0]][D];
-        double last = first;
-        for (const Index v : hull_.cells[cell]) {
-            first = std::min(first, hull_.points[v][D]);
-            last = std::max(last, hull_.points[v][D]);
-        }
-        const std::string times = first == last ? fmt::format("t = {:.6g}", first)
-                                                : fmt::format("t = {:.6g} to {:.6g}", first, last);
-        return fmt::format("cell {} ({}{})", findings_.cell_entities({&cell, 1}).front().number, patch(cell),
-                           times);
+    NamedCell named(Index cell, const std::array<double, 2>& times) const {
+        const std::int64_t patch = patch_of_(cell);
+        return {findings_.cell_entities({&cell, 1}).front().number,
+                patch > 0 ? patch_name(patches_, static_cast<PatchNumber>(patch)) : "", times};
     }
 
-    std::string patch(Index cell) const {
-        std::int64_t number = 0;
-        if (hull_.patch.given() && hull_.patch.rows() == hull_.cells.size()) {
-            hull_.patch.fill(cell, cell + 1, &number);
-        }
-        if (number <= 0) {
-            return {};
-        }
-        const std::string name = patch_name(hull_.patches, static_cast<PatchNumber>(number));
-        return name.starts_with("patch ") ? name + ", " : "patch " + name + ", ";
-    }
-
-    const HullColumns<D>& hull_;
-    const Findings& findings_;
+    Findings& findings_;
+    const PatchList& patches_;
+    std::function<std::int64_t(Index cell)> patch_of_;
 };
+
+/// The patch of a cell, 0 where the hull has none or too many.
+template<int D>
+std::int64_t claimed_patch(const HullColumns<D>& hull, Index cell) {
+    std::int64_t number = 0;
+    if (hull.patch.given() && hull.patch.rows() == hull.cells.size()) {
+        hull.patch.fill(cell, cell + 1, &number);
+    }
+    return number;
+}
+
+template<int D>
+std::array<double, 2> times_of(const HullColumns<D>& hull, Index cell) {
+    std::array<double, 2> times{hull.points[hull.cells[cell][0]][D], hull.points[hull.cells[cell][0]][D]};
+    for (const Index v : hull.cells[cell]) {
+        times = {std::min(times[0], hull.points[v][D]), std::max(times[1], hull.points[v][D])};
+    }
+    return times;
+}
+
+template<int D>
+EmbeddingSummary summary_of(const Findings& findings, const HullEmbedding<D>& found) {
+    return {findings.count(Defect::self_crossing),
+            found.all_listed,
+            found.caps_proven,
+            found.tested_cells,
+            found.stars,
+            found.proven_stars,
+            found.group_pairs,
+            found.tested_pairs,
+            found.exact_pairs};
+}
 
 template<int D>
 HullEmbedding<D> examine(const HullColumns<D>& hull, bool table_confirmed) {
@@ -91,27 +131,36 @@ std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, cons
     }
     enter_stage("embedding");
     const HullEmbedding<D> found = examine(hull, report.table_confirmed);
-    const CrossingNames<D> names{hull, findings};
+    CrossingNames<D> names{findings, hull.patches, [&](Index cell) { return claimed_patch(hull, cell); }};
     for (const Crossing<D + 1>& crossing : found.crossings) {
         if (crossing.first != crossing.second) {
-            const std::array<Index, 2> both{crossing.first, crossing.second};
-            findings.other(Defect::self_crossing, findings.cell_entities(both), names.text(crossing));
+            names.add(crossing, {times_of(hull, crossing.first), times_of(hull, crossing.second)});
         }
     }
-    return EmbeddingSummary{findings.count(Defect::self_crossing),
-                            found.all_listed,
-                            found.caps_proven,
-                            found.tested_cells,
-                            found.stars,
-                            found.proven_stars,
-                            found.group_pairs,
-                            found.tested_pairs,
-                            found.exact_pairs};
+    return summary_of(findings, found);
+}
+
+template<int D>
+EmbeddingSummary check_embedding_of_parts(const HullPart<D>& part, const HullOrder<D>& order,
+                                          Communicator& ranks, const CheckOptions& options,
+                                          HullReport& report) {
+    enter_stage("embedding");
+    const PartsEmbedding<D> found = examine_parts(part, ranks, most_crossings);
+    Findings findings{report, options};
+    CrossingNames<D> names{findings, order.patches, [&](Index cell) { return order.patch(cell); }};
+    for (const CrossingInHull<D>& crossing : found.crossings) {
+        names.add(crossing.cells, crossing.times);
+    }
+    return summary_of(findings, found.all);
 }
 
 template std::optional<EmbeddingSummary> check_embedding<2>(const HullColumns<2>&, const CheckOptions&,
                                                             HullReport&, bool);
 template std::optional<EmbeddingSummary> check_embedding<3>(const HullColumns<3>&, const CheckOptions&,
                                                             HullReport&, bool);
+template EmbeddingSummary check_embedding_of_parts<2>(const HullPart<2>&, const HullOrder<2>&, Communicator&,
+                                                      const CheckOptions&, HullReport&);
+template EmbeddingSummary check_embedding_of_parts<3>(const HullPart<3>&, const HullOrder<3>&, Communicator&,
+                                                      const CheckOptions&, HullReport&);
 
 } // namespace slabhull

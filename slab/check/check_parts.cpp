@@ -45,7 +45,7 @@ public:
         if (!all(check_finite<D + 1>(part_.points, findings_)) || !find_times() || !find_regions()) {
             return false;
         }
-        const PartStars<D> stars = complete_stars(part_, region_, ranks_);
+        const PartStars<D> stars = complete_stars(part_, view_, ranks_);
         return all(confirm_connectivity(stars)) && points_differ(stars) && ids_differ(stars) &&
                measures_are_sound() && claims_are_sound() && euler_is_sound(stars) &&
                tracks_are_sound(view_, stars, ranks_) &&
@@ -79,14 +79,10 @@ private:
                 anywhere[r] = anywhere[r] || each[r];
             }
         }
-        region_.resize(part_.cells.size());
-        for (std::size_t c = 0; c < region_.size(); ++c) {
-            region_[c] = static_cast<std::uint8_t>(view_.region[c]);
-        }
         const auto outside =
-            values_outside<std::uint8_t>(part_, ranks_, [&](Index cell) { return region_[cell]; });
+            values_outside<Region>(part_, ranks_, [&](Index cell) { return view_.region[cell]; });
         for (std::size_t k = 0; k < outside.size(); ++k) {
-            view_.region.set(part_.cells.size() + k, static_cast<Region>(outside[k]));
+            view_.region.set(part_.cells.size() + k, outside[k]);
         }
         return none_found() && anywhere[0] && anywhere[2];
     }
@@ -95,7 +91,7 @@ private:
 
     /// Not yet agreed on.
     bool confirm_connectivity(const PartStars<D>& stars) {
-        const auto counted = confirm_stars<D>({stars.cells, stars.neighbors, stars.owned});
+        const auto counted = confirm_stars<D>(stars.mesh_with(part_));
         const StarCounts here = counted.value_or(StarCounts{});
         ManifoldCounts& counts = report_.counts;
         counts.vertices = ranks_.sum(here.vertices);
@@ -205,7 +201,7 @@ private:
 
     struct SurveyedCell {
         std::array<Point<D + 1>, D + 1> corners;
-        std::uint8_t region;
+        Region region;
     };
 
     /// The first point of the hull, which is the origin of sums.
@@ -217,7 +213,7 @@ private:
     }
 
     SurveyedCell surveyed(std::size_t c) const {
-        return {corners_of<D, D + 1>(part_.cells[c], part_.points), region_[c]};
+        return {corners_of<D, D + 1>(part_.cells[c], part_.points), view_.region_of(c)};
     }
 
     /// The end of the part's cells that belong to a piece of the sums which begins on an earlier rank.
@@ -254,8 +250,7 @@ private:
                     const SurveyedCell cell = head + k < part_.cells.size()
                                                   ? surveyed(head + k)
                                                   : tail[head + k - part_.cells.size()];
-                    const CellFaults faults =
-                        survey_cell<D>(static_cast<Region>(cell.region), cell.corners, from, 1, sums);
+                    const CellFaults faults = survey_cell<D>(cell.region, cell.corners, from, 1, sums);
                     if (faults.degenerate || faults.inverted) {
                         sound = false;
                     }
@@ -333,13 +328,11 @@ private:
     CapCounts counts_of_cap(const PartStars<D>& stars, Region cap) const {
         CapCounts counts;
         std::vector<bool> used(stars.owned.size(), false);
-        for (std::size_t c = 0; c < stars.cells.size(); ++c) {
-            if (static_cast<Region>(stars.region[c]) == cap) {
-                for (const Index v : stars.cells[c]) {
-                    used[v] = stars.owned[v] != 0;
-                }
+        stars.each_cell(view_, [&](const Simplex<D>& cell, Region region) {
+            for (const Index v : cell) {
+                used[v] = used[v] || (region == cap && stars.owned[v] != 0);
             }
-        }
+        });
         counts.vertices = std::count(used.begin(), used.end(), true);
         for (std::size_t c = 0; c < part_.cells.size(); ++c) {
             if (view_.region_of(c) == cap) {
@@ -359,7 +352,6 @@ private:
     CheckResult found_; ///< by this rank, in its own numbers: only whether there is anything counts
     Findings findings_;
     HullView<D> view_;
-    Array<std::uint8_t> region_; ///< of the part's cells
 };
 
 /// The lists that the ranks have, one after the other, on the first of them.

@@ -310,16 +310,15 @@ struct VertexUse {
 };
 
 template<int D>
-VertexUse use_of_vertices(const PartStars<D>& stars) {
+VertexUse use_of_vertices(const HullView<D>& view, const PartStars<D>& stars) {
     VertexUse use;
     use.in_cap.assign(stars.owned.size(), 0);
     use.on_side.assign(stars.owned.size(), 0);
-    for (std::size_t c = 0; c < stars.cells.size(); ++c) {
-        const bool side = static_cast<Region>(stars.region[c]) == Region::intermediate;
-        for (const Index v : stars.cells[c]) {
-            (side ? use.on_side : use.in_cap)[v] = 1;
+    stars.each_cell(view, [&](const Simplex<D>& cell, Region region) {
+        for (const Index v : cell) {
+            (region == Region::intermediate ? use.on_side : use.in_cap)[v] = 1;
         }
-    }
+    });
     return use;
 }
 
@@ -417,7 +416,7 @@ bool none_is_stray(const HullView<D>& view, const PartStars<D>& stars, const Ver
 
 template<int D>
 bool tracks_are_sound(const HullView<D>& view, const PartStars<D>& stars, Communicator& ranks) {
-    const VertexUse use = use_of_vertices(stars);
+    const VertexUse use = use_of_vertices(view, stars);
     const bool whole = tracks_are_whole(view, stars, use, ranks);
     const Array<FacetOfCap<D>> facets = facets_of_caps(view, ranks);
     const bool sound = whole && are_images(facets) && none_is_stray(view, stars, use, facets);

@@ -4,12 +4,17 @@
 
 #include "core/pieces.h"
 #include "slabhull/core/communicator.h"
+#include "slabhull/core/point_set.h"
 #include "slabhull/slab/hull_part.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <vector>
 
 namespace slabhull {
@@ -52,29 +57,54 @@ Array<T> values_outside(const HullPart<D>& part, Communicator& ranks, const Valu
     });
 }
 
+/// Which of the hull's points in a range of 64 or a multiple are in a set, one bit each.
+inline std::span<const std::uint64_t> words_of_points(const PointSet& points, std::size_t first,
+                                                      std::size_t count) {
+    const std::span<const std::uint64_t> all = points.words();
+    const std::size_t begin = std::min(first / 64, all.size());
+    return all.subspan(begin, std::min(count / 64, all.size() - begin));
+}
+
+/// Calls visit(k, bit) for the bits that are set, the k-th of them.
+template<class Visit>
+void each_bit(std::span<const std::uint64_t> words, const Visit& visit) {
+    std::size_t k = 0;
+    for (std::size_t w = 0; w < words.size(); ++w) {
+        for (std::uint64_t left = words[w]; left != 0; left &= left - 1) {
+            visit(k++, 64 * w + static_cast<std::size_t>(std::countr_zero(left)));
+        }
+    }
+}
+
 /// For each point of a part, the lowest of the values that it has in the parts which use it; `mine` are those
 /// in this one. Each point has a home, which is told by all who use it, and answers. Collective.
 template<class T, int D>
-Array<T> lowest_at_points(const HullPart<D>& part, Communicator& ranks, const Array<T>& mine) {
-    struct Use {
-        std::uint64_t point;
-        T value;
-    };
+Array<T> lowest_at_points(const HullPart<D>& part, Communicator& ranks, std::span<const T> mine) {
     const auto count = static_cast<std::size_t>(ranks.size());
-    const std::size_t at_home = part.hull_points() / count + 1; // consecutive points have one home
-    std::vector<Array<Use>> uses(count);
-    each_point_of(part, [&](std::size_t k, std::size_t number) {
-        uses[number / at_home].push_back({number, mine[k]});
-    });
-    const std::vector<Array<Use>> asked = ranks.all_to_all(uses);
-    const std::size_t begin = static_cast<std::size_t>(ranks.rank()) * at_home;
-    Array<T> lowest(at_home, std::numeric_limits<T>::max());
-    for (const Array<Use>& of_rank : asked) {
-        for (const Use& use : of_rank) {
-            lowest[use.point - begin] = std::min(lowest[use.point - begin], use.value);
-        }
+    const std::size_t at_home = (part.hull_points() / count / 64 + 1) * 64; // consecutive points
+    std::vector<std::span<const std::uint64_t>> used(count);
+    std::vector<std::span<const T>> values(count);
+    for (std::size_t home = 0, begin = 0; home < count; ++home) {
+        used[home] = words_of_points(*part.points_used, home * at_home, at_home);
+        const std::size_t members = std::transform_reduce(
+            used[home].begin(), used[home].end(), std::size_t{0}, std::plus<>{},
+            [](std::uint64_t word) { return static_cast<std::size_t>(std::popcount(word)); });
+        values[home] = mine.subspan(begin, members);
+        begin += members;
     }
-    return answered<T>(ranks, asked, [&](const Use& use) { return lowest[use.point - begin]; });
+    const std::vector<Array<std::uint64_t>> used_by = ranks.all_to_all(used);
+    std::vector<Array<T>> told = ranks.all_to_all(values);
+    Array<T> lowest;
+    lowest.assign(at_home, std::numeric_limits<T>::max());
+    for (std::size_t r = 0; r < count; ++r) {
+        each_bit(used_by[r], [&](std::size_t k, std::size_t point) {
+            lowest[point] = std::min(lowest[point], told[r][k]);
+        });
+    }
+    for (std::size_t r = 0; r < count; ++r) { // the answers take the place of what was told
+        each_bit(used_by[r], [&](std::size_t k, std::size_t point) { told[r][k] = lowest[point]; });
+    }
+    return joined(ranks.all_to_all(told));
 }
 
 } // namespace slabhull

@@ -23,14 +23,13 @@ struct GhostCell {
 template<int D>
 class StarCompletion {
 public:
-    StarCompletion(const HullPart<D>& part, const Array<std::uint8_t>& region, Communicator& ranks)
-        : part_{part}, region_{region}, ranks_{ranks}, numbers_(part.points.size()) {
-        each_point_of(part, [&](std::size_t k, std::size_t number) { numbers_[k] = number; });
-    }
+    StarCompletion(const HullPart<D>& part, const HullView<D>& view, Communicator& ranks)
+        : part_{part}, view_{view}, ranks_{ranks} {}
 
     PartStars<D> run() {
-        const auto owners =
-            lowest_at_points(part_, ranks_, Array<std::int32_t>(part_.points.size(), ranks_.rank()));
+        Array<std::int32_t> owners;
+        owners.assign(part_.points.size(), ranks_.rank());
+        owners = lowest_at_points<std::int32_t>(part_, ranks_, owners);
         PartStars<D> stars;
         stars.owned.resize(owners.size());
         std::transform(owners.begin(), owners.end(), stars.owned.begin(),
@@ -64,9 +63,9 @@ private:
     GhostCell<D> as_ghost(std::size_t c) const {
         GhostCell<D> ghost{};
         ghost.number = part_.range.first + c;
-        ghost.region = region_[c];
+        ghost.region = static_cast<std::uint8_t>(view_.region_of(c));
         for (std::size_t i = 0; i <= D; ++i) {
-            ghost.vertices[i] = numbers_[part_.cells[c][i]];
+            ghost.vertices[i] = part_.points_used->member(part_.cells[c][i]);
             ghost.neighbors[i] = part_.in_hull(part_.neighbors[c][i]);
         }
         return ghost;
@@ -107,35 +106,26 @@ private:
     }
 
     void number_cells(PartStars<D>& stars) const {
-        const std::size_t own = part_.cells.size();
-        stars.cells = part_.cells;
-        stars.neighbors = part_.neighbors;
-        stars.region = region_;
-        Array<Index> outside(part_.outside.size());
-        std::transform(part_.outside.begin(), part_.outside.end(), outside.begin(),
+        stars.outside.resize(part_.outside.size());
+        std::transform(part_.outside.begin(), part_.outside.end(), stars.outside.begin(),
                        [&](std::uint64_t number) { return cell_here(number); });
-        for (Neighbors<D>& row : stars.neighbors) {
-            for (Index& neighbor : row) {
-                neighbor = neighbor < own ? neighbor : outside[neighbor - own];
-            }
-        }
+        stars.ghosts.reserve(ghosts_.size());
+        stars.ghost_neighbors.reserve(ghosts_.size());
+        stars.ghost_region.reserve(ghosts_.size());
         for (const GhostCell<D>& ghost : ghosts_) {
-            Simplex<D> cell;
-            Neighbors<D> across;
+            Simplex<D>& cell = stars.ghosts.emplace_back();
+            Neighbors<D>& across = stars.ghost_neighbors.emplace_back();
             for (std::size_t i = 0; i <= D; ++i) {
                 cell[i] = vertex_here(ghost.vertices[i]);
                 across[i] = cell_here(ghost.neighbors[i]);
             }
-            stars.cells.push_back(cell);
-            stars.neighbors.push_back(across);
-            stars.region.push_back(ghost.region);
+            stars.ghost_region.push_back(ghost.region);
         }
     }
 
     const HullPart<D>& part_;
-    const Array<std::uint8_t>& region_;
+    const HullView<D>& view_;
     Communicator& ranks_;
-    Array<std::uint64_t> numbers_; ///< of the part's points in the hull
     Array<GhostCell<D>> ghosts_;
     Array<std::uint64_t> others_; ///< vertices of ghosts alone
 };
@@ -143,11 +133,11 @@ private:
 } // namespace
 
 template<int D>
-PartStars<D> complete_stars(const HullPart<D>& part, const Array<std::uint8_t>& region, Communicator& ranks) {
-    return StarCompletion<D>{part, region, ranks}.run();
+PartStars<D> complete_stars(const HullPart<D>& part, const HullView<D>& view, Communicator& ranks) {
+    return StarCompletion<D>{part, view, ranks}.run();
 }
 
-template PartStars<2> complete_stars<2>(const HullPart<2>&, const Array<std::uint8_t>&, Communicator&);
-template PartStars<3> complete_stars<3>(const HullPart<3>&, const Array<std::uint8_t>&, Communicator&);
+template PartStars<2> complete_stars<2>(const HullPart<2>&, const HullView<2>&, Communicator&);
+template PartStars<3> complete_stars<3>(const HullPart<3>&, const HullView<3>&, Communicator&);
 
 } // namespace slabhull

@@ -60,14 +60,9 @@ SoundHull require_sound_parts(const HullPart<D>& part, const HullOrder<D>& order
     clock.book("checking");
     together(ranks, [&] { require_clean(sound.report, name); }); // the first rank's message has the findings
     if (embedding) {
-        const Hull<D> hull = gather_hull(part, order, ranks);
-        together(ranks, [&] {
-            if (ranks.first()) {
-                sound.embedding = check_embedding<D>(columns_of(hull), options, sound.report);
-                require_clean(sound.report, name);
-            }
-        });
+        sound.embedding = check_embedding_of_parts(part, order, ranks, options, sound.report);
         clock.book("embedding");
+        together(ranks, [&] { require_clean(sound.report, name); });
     }
     return sound;
 }

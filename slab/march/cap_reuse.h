@@ -12,7 +12,7 @@ struct ReusedCap {
     CapMesh<D> mesh;           ///< swept vertices first, as a mesher gives them; empty if not good enough
     double smallest_angle = 0; ///< degrees; 0 when a cell is inverted
 
-    bool good() const { return !mesh.cells.empty(); }
+    bool good() const { return !mesh.points.empty(); }
 };
 
 /// `angle` is the required smallest angle. The cap is moved in one step or, if that leaves a smaller angle,

@@ -44,18 +44,27 @@ Slab<D> March<D>::propose(std::vector<double> times) const {
 }
 
 template<int D>
+CapToStitch<D> March<D>::give_up_cap() {
+    CapToStitch<D> cap{std::move(state_.cap)};
+    if (state_.cells) {
+        cap.give_cells(*state_.cells);
+    }
+    return cap;
+}
+
+template<int D>
 Slab<D> March<D>::build(std::vector<double> times, StageClock& clock) {
     require_times(times);
     const ProgressScope scope{progress_};
-    return build_slab<D>(std::move(state_.cap), state_.boundary, state_.slab, std::move(times), settings_,
-                         state_.ids, clock);
+    return build_slab<D>(give_up_cap(), state_.boundary, state_.slab, std::move(times), settings_, state_.ids,
+                         clock);
 }
 
 template<int D>
 Slab<D> March<D>::build(PreparedSlab<D> prepared, StageClock& clock) {
     require_times(prepared.sweep.times);
     const ProgressScope scope{progress_};
-    return build_slab<D>(std::move(state_.cap), state_.boundary, state_.slab, std::move(prepared), settings_,
+    return build_slab<D>(give_up_cap(), state_.boundary, state_.slab, std::move(prepared), settings_,
                          state_.ids, clock);
 }
 
@@ -63,6 +72,9 @@ template<int D>
 MarchState<D> state_after(const Boundary<D>& boundary, const Slab<D>& slab) {
     MarchState<D> state{slab.terminating(), slab.hull.time[1], slab.hull.slab + 1, slab.next_ids, {}};
     state.boundary = slab.boundary.value_or(boundary).bounding(state.cap.vertex_ids);
+    if (slab.part) {
+        state.cells = terminating_cells_of(*slab.part, slab.hull);
+    }
     return state;
 }
 

@@ -71,12 +71,31 @@ NewCap<D> make_adapted_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const
             std::move(adapted.side)};
 }
 
+/// The initial cap moved along: in ranks by the first, which is given all its cells for that, and keeps those
+/// of the moved cap.
+template<int D>
+ReusedCap<D> reuse_in_ranks(CapToStitch<D>& initial, const Sweep<D>& sweep, double angle,
+                            Communicator& ranks) {
+    const std::size_t all = initial.cells().all;
+    const HullRange wanted = ranks.first() ? HullRange{0, all} : HullRange{all, 0};
+    initial.cells() = redistributed(std::move(initial.cells()), wanted, ranks);
+    ReusedCap<D> reused = together(ranks, [&] {
+        const typename CapToStitch<D>::WithCells whole{initial};
+        return ranks.first() ? reuse_cap<D>(initial.mesh(), sweep, angle) : ReusedCap<D>{};
+    });
+    reused.smallest_angle = ranks.gather(reused.smallest_angle).front();
+    reused.mesh = with_shared_points(std::move(reused.mesh), ranks);
+    return reused;
+}
+
 /// The initial cap moved along, if that is good enough.
 template<int D>
-std::optional<CapMesh<D>> moved_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep,
+std::optional<CapMesh<D>> moved_cap(CapToStitch<D>& initial, const Sweep<D>& sweep,
                                     const SlabSettings<D>& settings, Slab<D>& slab, StageClock& clock) {
     enter_stage(cap_meshing_stage);
-    ReusedCap<D> reused = reuse_cap<D>(initial, sweep, settings.reuse_angle);
+    ReusedCap<D> reused = settings.ranks != nullptr
+                              ? reuse_in_ranks<D>(initial, sweep, settings.reuse_angle, *settings.ranks)
+                              : reuse_cap<D>(initial.mesh(), sweep, settings.reuse_angle);
     slab.moved_angle = reused.smallest_angle;
     slab.cap_moved = reused.good();
     clock.book("cap moving");
@@ -91,7 +110,7 @@ CapMesh<D> meshed_cap(const Sweep<D>& sweep, const CapOptions& options, StageClo
 
 /// The terminating cap: moved where that is wanted and good enough, else meshed.
 template<int D>
-CapMesh<D> make_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, const SlabSettings<D>& settings,
+CapMesh<D> make_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const SlabSettings<D>& settings,
                     Slab<D>& slab, StageClock& clock) {
     if (settings.reuse == CapReuse::move) {
         if (std::optional<CapMesh<D>> moved = moved_cap<D>(initial, sweep, settings, slab, clock)) {
@@ -239,7 +258,7 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
             checked_sweep<D>(boundary, initial.mesh(), times, settings, slab.layers_enough, clock);
         slab.layers = fit;
         if (settings.reuse != CapReuse::adapt) {
-            NewCap<D> cap{make_cap<D>(initial.mesh(), sweep, settings, slab, clock), {}, 0, {}};
+            NewCap<D> cap{make_cap<D>(initial, sweep, settings, slab, clock), {}, 0, {}};
             return {std::move(sweep), std::move(cap)};
         }
         const std::size_t doubled = 2 * sweep.layers();
@@ -271,10 +290,11 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
 template<int D>
 void stitch_in_ranks(CapToStitch<D>& initial, const Sweep<D>& sweep, SpatialMesh<D>&& terminating,
                      const SlabSettings<D>& settings, IdCounter& side_ids, Slab<D>& slab) {
-    const auto number = static_cast<std::size_t>(settings.ranks->rank());
-    const auto parts = static_cast<std::size_t>(settings.ranks->size());
-    slab.part =
-        stitch_part<D>(initial, sweep, terminating, settings.side, side_ids, {number, parts}, slab.hull);
+    CapCells<D> cells = take_cells(terminating, *settings.ranks);
+    CapToStitch<D> last{terminating};
+    last.give_cells(cells);
+    slab.part = stitch_part<D>(std::move(initial), sweep, std::move(last), settings.side, side_ids,
+                               *settings.ranks, slab.hull);
     slab.cap = std::move(terminating);
 }
 

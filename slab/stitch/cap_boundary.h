@@ -2,6 +2,8 @@
 #pragma once
 
 #include "slabhull/core/array.h"
+#include "slabhull/core/communicator.h"
+#include "slabhull/slab/cap_cells.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 namespace slabhull {
@@ -17,5 +19,11 @@ struct CellFacet {
 /// orientation included. Cost: linear.
 template<int D>
 Array<CellFacet> find_boundary_facets(const SpatialMesh<D>& mesh);
+
+/// The same of a mesh whose cells are on ranks; `mesh` itself has none. All ranks get all. Collective; throws
+/// on all ranks, or on none.
+template<int D>
+Array<CellFacet> find_boundary_facets(const SpatialMesh<D>& mesh, const CapCells<D>& cells,
+                                      Communicator& ranks);
 
 } // namespace slabhull

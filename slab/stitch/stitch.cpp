@@ -44,16 +44,19 @@ public:
     /// Places the caps first: the hull takes memory only as it is written, and that of the caps may be
     /// released.
     Hull<D> whole() {
+        describe(initial_.mesh().cells.size(), terminating_.mesh().cells.size());
         begin(0, 1);
-        const auto boundary = boundary_of_caps();
+        const std::array boundary{find_boundary_facets(initial_.mesh()),
+                                  find_boundary_facets(terminating_.mesh())};
+        require_closed(boundary);
         Hull<D> hull;
         hull.vertex_ids = std::move(vertex_ids_);
         hull.track_ids = std::move(track_ids_);
         hull.points.resize(hull_points_);
         place_points(initial_, hull.points.data(), sweep_.times.front());
-        place_cells(initial_, 0, 0);
+        place_cells_of(initial_, 0, 0);
         place_points(terminating_, hull.points.data() + vertices_.end(), sweep_.times.back());
-        place_cells(terminating_, order_.terminating_begin(), static_cast<Index>(vertices_.end()));
+        place_cells_of(terminating_, order_.terminating_begin(), static_cast<Index>(vertices_.end()));
         for_each_index(vertices_.end() - vertices_.begin(), items_per_step, [&](std::size_t k) {
             hull.points[vertices_.begin() + k] = points_.of_vertex(vertices_.begin() + k);
         });
@@ -65,11 +68,13 @@ public:
         return hull;
     }
 
-    HullPart<D> part(std::size_t number, std::size_t parts, HullOrder<D>& order) {
-        begin(number, parts);
-        const auto boundary = boundary_of_caps();
-        place_cells(initial_, 0, 0);
-        place_cells(terminating_, order_.terminating_begin(), static_cast<Index>(vertices_.end()));
+    HullPart<D> part(Communicator& ranks, HullOrder<D>& order) {
+        describe(initial_.cells().all, terminating_.cells().all);
+        begin(static_cast<std::size_t>(ranks.rank()), static_cast<std::size_t>(ranks.size()));
+        const std::array boundary{place_cells_from_ranks(initial_, 0, 0, ranks),
+                                  place_cells_from_ranks(terminating_, order_.terminating_begin(),
+                                                         static_cast<Index>(vertices_.end()), ranks)};
+        require_closed(boundary);
         place_side_cells();
         join_caps(boundary);
         HullPart<D> part;
@@ -89,7 +94,6 @@ private:
     /// What is known before anything is placed, and room for the cells of one of several parts.
     void begin(std::size_t part, std::size_t parts) {
         give_back_freed_memory(); // memory used for meshing and sweep
-        describe();
         if (parts > hull_cells_) {
             throw UsageError{fmt::format("{} parts cannot be made of {} cells", parts, hull_cells_)};
         }
@@ -99,10 +103,10 @@ private:
         name_vertices();
     }
 
-    void describe() {
+    void describe(std::size_t initial_cells, std::size_t terminating_cells) {
         order_.initial_points = initial_.mesh().points.size();
         order_.side_points = vertices_.end() - vertices_.begin();
-        order_.initial_cells = initial_.mesh().cells.size();
+        order_.initial_cells = initial_cells;
         order_.layers = sweep_.layers();
         order_.cells_per_prism = static_cast<std::size_t>(simplices_per_prism(options_.split));
         order_.side_cells = order_.layers * graph_.facets() * order_.cells_per_prism;
@@ -110,7 +114,7 @@ private:
         order_.patches = sweep_.boundary.patches();
         order_.time = {sweep_.times.front(), sweep_.times.back()};
         hull_points_ = vertices_.end() + terminating_.mesh().points.size();
-        hull_cells_ = order_.terminating_begin() + terminating_.mesh().cells.size();
+        hull_cells_ = order_.terminating_begin() + terminating_cells;
         checked_index(hull_points_, "hull vertices");
         checked_index(hull_cells_, "hull cells");
     }
@@ -151,16 +155,31 @@ private:
         cap.release(&SpatialMesh<D>::points);
     }
 
-    void place_cells(CapToStitch<D>& cap, std::size_t first_cell, Index first_vertex) {
-        const bool looks_back = first_cell == 0; // the cap faces back in time: cells are reversed
-        place_rows(cap.mesh().cells, cells_, first_cell, first_vertex, looks_back);
+    void place_cells_of(CapToStitch<D>& cap, std::size_t first_cell, Index first_vertex) {
+        place_rows(cap.mesh().cells, cells_, first_cell, first_vertex, first_cell == 0);
         cap.release(&SpatialMesh<D>::cells);
         // Across boundary facets the neighbours stay unset: see join_cap().
-        place_rows(cap.mesh().neighbors, neighbors_, first_cell, static_cast<Index>(first_cell), looks_back);
+        place_rows(cap.mesh().neighbors, neighbors_, first_cell, static_cast<Index>(first_cell),
+                   first_cell == 0);
         cap.release(&SpatialMesh<D>::neighbors);
     }
 
-    /// Copies rows of indices to those of the hull's cells from `first` on.
+    /// The same of the cap's cells that are in this part, which may be on other ranks. Returns the boundary
+    /// facets of all.
+    Array<CellFacet> place_cells_from_ranks(CapToStitch<D>& cap, std::size_t first_cell, Index first_vertex,
+                                            Communicator& ranks) {
+        const HullRange here = held(first_cell, cap.cells().all);
+        CapCells<D> cells = redistributed(std::move(cap.cells()),
+                                          {here.count > 0 ? here.first - first_cell : 0, here.count}, ranks);
+        Array<CellFacet> boundary = find_boundary_facets(cap.mesh(), cells, ranks);
+        const std::size_t first = first_cell + cells.range.first;
+        place_rows(cells.cells, cells_, first, first_vertex, first_cell == 0);
+        place_rows(cells.neighbors, neighbors_, first, static_cast<Index>(first_cell), first_cell == 0);
+        return boundary;
+    }
+
+    /// Copies rows of indices to those of the hull's cells from `first` on. Those of the initial cap, which
+    /// looks back in time, are turned.
     template<class Row>
     void place_rows(const Array<Row>& rows, Array<Row>& hull, std::size_t first, Index shift, bool turned) {
         const HullRange here = held(first, rows.size());
@@ -263,20 +282,15 @@ private:
         return cell;
     }
 
-    /// The boundary facets of both caps.
-    std::array<Array<CellFacet>, 2> boundary_of_caps() const {
-        return {boundary_of_cap(initial_.mesh()), boundary_of_cap(terminating_.mesh())};
-    }
-
-    Array<CellFacet> boundary_of_cap(const SpatialMesh<D>& cap) const {
-        Array<CellFacet> boundary = find_boundary_facets(cap);
-        if (boundary.size() != graph_.facets()) {
-            throw GeometryError(
-                fmt::format("the caps and the side of the slab from t = {} to {} do not close: a cap has {} "
-                            "boundary facets, the side {}",
-                            order_.time[0], order_.time[1], boundary.size(), graph_.facets()));
+    void require_closed(const std::array<Array<CellFacet>, 2>& boundary) const {
+        for (const Array<CellFacet>& of_cap : boundary) {
+            if (of_cap.size() != graph_.facets()) {
+                throw GeometryError(
+                    fmt::format("the caps and the side of the slab from t = {} to {} do not close: a cap has "
+                                "{} boundary facets, the side {}",
+                                order_.time[0], order_.time[1], of_cap.size(), graph_.facets()));
+            }
         }
-        return boundary;
     }
 
     void join_caps(const std::array<Array<CellFacet>, 2>& boundary) {
@@ -478,9 +492,11 @@ HullRange range_of_part(std::size_t cells, std::size_t part, std::size_t parts) 
 
 template<int D>
 HullPart<D> stitch_part(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
-                        const SideOptions& options, IdCounter& ids, const PartNumber& part,
+                        const SideOptions& options, IdCounter& ids, Communicator& ranks,
                         HullOrder<D>& order) {
-    return Stitcher<D>{initial, sweep, terminating, options, ids}.part(part.number, part.parts, order);
+    return together(ranks, [&] {
+        return Stitcher<D>{initial, sweep, terminating, options, ids}.part(ranks, order);
+    });
 }
 
 template SpatialMesh<2> terminating_cap<2>(const Boundary<2>&, CapMesh<2>&&, IdCounter&);
@@ -490,9 +506,9 @@ template std::size_t side_vertex_count<3>(const Sweep<3>&, Split);
 template Hull<2> stitch<2>(CapToStitch<2>, const Sweep<2>&, CapToStitch<2>, const SideOptions&, IdCounter&);
 template Hull<3> stitch<3>(CapToStitch<3>, const Sweep<3>&, CapToStitch<3>, const SideOptions&, IdCounter&);
 template HullPart<2> stitch_part<2>(CapToStitch<2>, const Sweep<2>&, CapToStitch<2>, const SideOptions&,
-                                    IdCounter&, const PartNumber&, HullOrder<2>&);
+                                    IdCounter&, Communicator&, HullOrder<2>&);
 template HullPart<3> stitch_part<3>(CapToStitch<3>, const Sweep<3>&, CapToStitch<3>, const SideOptions&,
-                                    IdCounter&, const PartNumber&, HullOrder<3>&);
+                                    IdCounter&, Communicator&, HullOrder<3>&);
 template SpatialMesh<2> terminating_cap_of<2>(const Hull<2>&, Array<Facet<2>>);
 template SpatialMesh<3> terminating_cap_of<3>(const Hull<3>&, Array<Facet<3>>);
 

@@ -2,6 +2,7 @@
 #include "slabhull/slab/check.h"
 #include "slabhull/topology/homology.h"
 
+#include "slab/parts.h"
 #include "slab/require_found.h"
 #include "slab/specimens.h"
 #include "slabhull/core/communicator.h"
@@ -65,43 +66,15 @@ std::uint64_t claimed_neighbor(const Claims<D>& claims, std::size_t cell, std::s
 /// Some cells of a hull as a rank has them.
 template<int D>
 HullPart<D> part_of(const Claims<D>& claims, const HullRange& range) {
-    HullPart<D> part;
-    part.hull_cells = claims.cells.size();
-    part.range = range;
-    auto used = std::make_shared<PointSet>(claims.points.size());
-    for (std::size_t c = range.first; c < range.first + range.count; ++c) {
-        part.cells.push_back(claims.cells[c]);
-        for (std::size_t i = 0; i <= D; ++i) {
-            used->insert(claims.cells[c][i]);
-            const std::uint64_t n = claimed_neighbor(claims, c, i);
-            if (n - range.first >= range.count) {
-                part.outside.push_back(n);
-            }
-        }
-    }
-    std::sort(part.outside.begin(), part.outside.end());
-    part.outside.erase(std::unique(part.outside.begin(), part.outside.end()), part.outside.end());
-    used->count();
-    for (std::size_t c = 0; c < range.count; ++c) {
-        Neighbors<D>& row = part.neighbors.emplace_back();
-        for (std::size_t i = 0; i <= D; ++i) {
-            part.cells[c][i] = static_cast<Index>(used->rank(part.cells[c][i]));
-            const std::uint64_t n = claimed_neighbor(claims, range.first + c, i);
-            const auto place = std::lower_bound(part.outside.begin(), part.outside.end(), n);
-            row[i] = static_cast<Index>(n - range.first < range.count
-                                            ? n - range.first
-                                            : range.count +
-                                                  static_cast<std::size_t>(place - part.outside.begin()));
-        }
-    }
+    HullPart<D> part = tests::part_of<D>(
+        claims.points, claims.cells,
+        [&](std::size_t c, std::size_t i) { return claimed_neighbor(claims, c, i); }, range);
     for (std::size_t v = 0; v < claims.points.size(); ++v) {
-        if (used->contains(v)) {
-            part.points.push_back(claims.points[v]);
+        if (part.points_used->contains(v)) {
             part.vertex_ids.push_back(claims.vertex_id[v]);
             part.track_ids.push_back(claims.track_id[v]);
         }
     }
-    part.points_used = std::move(used);
     return part;
 }
 

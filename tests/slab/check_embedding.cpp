@@ -2,6 +2,7 @@
 #include "slabhull/slab/check_embedding.h"
 
 #include "geometry/simplex_judge.h"
+#include "slab/parts.h"
 #include "slab/specimens.h"
 #include "slabhull/cases/report.h"
 #include "slabhull/core/parallel.h"
@@ -45,7 +46,9 @@ Claims<D> in_twentieths(Claims<D> claims) {
 template<int D>
 HullEmbedding<D> examine(const Claims<D>& claims, std::size_t limit = 100000) {
     const auto adjacency = build_adjacency<D>(claims.cells, claims.points.size());
-    return examine_embedding<D>(claims.points, claims.cells, adjacency, limit);
+    const auto found = examine_embedding<D>(claims.points, claims.cells, adjacency, limit);
+    tests::require_same_in_ranks<D>(claims.points, claims.cells, adjacency, limit, found);
+    return found;
 }
 
 template<int D>
@@ -174,6 +177,38 @@ TEMPLATE_TEST_CASE_SIG("bodies that meet between levels are findings with number
     }
     CHECK(nlohmann::json::parse(report_as_json(*embedding))["crossings"] == embedding->crossings);
     CHECK(nlohmann::json::parse(report_as_json(report))["defects"]["self-crossing"] == embedding->crossings);
+}
+
+TEMPLATE_TEST_CASE_SIG("ranks say of bodies that meet what one process says", "[embedding]", ((int D), D), 2,
+                       3) {
+    Hull<D> hull = specimens::swept(specimens::box_with_two_bodies<D>(), 2);
+    const auto place = [](const Point<D + 1>& p) { // of a vertex of the left body on the middle level
+        const bool of_body = std::all_of(p.begin(), p.begin() + D, [](double x) { return x > 0 && x < 5; });
+        return p[D] == 1.5 && of_body && p[0] < 2.5 ? p[0] : 0;
+    };
+    (*std::max_element(hull.points.begin(), hull.points.end(), [&](const auto& a, const auto& b) {
+        return place(a) < place(b);
+    }))[0] += 1.1; // a little into the other
+    CheckOptions options;
+    options.most_findings = 1000;
+    HullReport whole = check_hull<D>(hull, options);
+    const auto alone = check_embedding<D>(columns_of(hull), options, whole);
+    REQUIRE(alone->all_listed);
+    REQUIRE(whole.count(Defect::self_crossing) > 0);
+    run_team(3, [&](Communicator& team) {
+        const HullPart<D> part = tests::part_of<D>(
+            hull.points, hull.cells, [&](std::size_t c, std::size_t i) { return hull.neighbors[c][i]; },
+            range_of_part(hull.cells.size(), static_cast<std::size_t>(team.rank()), 3));
+        HullReport report;
+        const EmbeddingSummary summary = check_embedding_of_parts(part, hull, team, options, report);
+        const bool same_texts = std::equal(
+            report.findings.begin(), report.findings.end(), whole.findings.begin(), whole.findings.end(),
+            [](const Finding& a, const Finding& b) { return a.text == b.text && a.what == b.what; });
+        team.barrier();
+        if (!same_texts || summary.crossings != alone->crossings) {
+            throw std::runtime_error{"rank " + std::to_string(team.rank()) + " says something else"};
+        }
+    });
 }
 
 TEST_CASE("the findings are the same for any number of threads", "[embedding]") {

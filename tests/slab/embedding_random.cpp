@@ -5,6 +5,7 @@
 #include "core/rounds.h"
 #include "geometry/embedding/cell_pairs.h"
 #include "io/scratch.h"
+#include "slab/parts.h"
 #include "slab/specimens.h"
 #include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/initial.h"
@@ -33,7 +34,10 @@ using Pairs = std::set<std::pair<Index, Index>>;
 template<int D>
 HullEmbedding<D> examine(const Soup<D>& hull) {
     const auto adjacency = build_adjacency<D>(hull.cells, hull.points.size());
-    return examine_embedding<D>(hull.points, hull.cells, adjacency, 1'000'000);
+    constexpr std::size_t all = 1'000'000;
+    const auto found = examine_embedding<D>(hull.points, hull.cells, adjacency, all);
+    tests::require_same_in_ranks<D>(hull.points, hull.cells, adjacency, all, found);
+    return found;
 }
 
 template<int D>

@@ -6,12 +6,14 @@
 #include "slab/swept_grid.h"
 #include "slabhull/cases/case.h"
 #include "slabhull/cases/initial.h"
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/slab.h"
 #include "slabhull/topology/homology.h"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -143,6 +145,22 @@ std::size_t starting_at_smallest(const std::set<std::array<std::int64_t, 3>>& di
         std::count_if(diagonals.begin(), diagonals.end(), [](const auto& d) { return d[1] < d[2]; }));
 }
 
+/// What one rank stitches of a slab. The caps' cells come from the first rank.
+template<int D>
+HullPart<D> part_by_rank(const SlabParts<D>& parts, const SideOptions& side, Communicator& team,
+                         HullOrder<D>& order) {
+    SpatialMesh<D> initial = parts.initial;
+    SpatialMesh<D> terminating = parts.terminating;
+    CapCells<D> first = take_cells(initial, team);
+    CapCells<D> last = take_cells(terminating, team);
+    CapToStitch<D> begin{initial};
+    CapToStitch<D> end{terminating};
+    begin.give_cells(first);
+    end.give_cells(last);
+    IdCounter ids{1'000'000};
+    return stitch_part<D>(begin, parts.sweep, end, side, ids, team, order);
+}
+
 } // namespace
 
 TEMPLATE_TEST_CASE_SIG(
@@ -187,23 +205,50 @@ TEMPLATE_TEST_CASE_SIG("parts of a hull are the whole, row by row, for any numbe
             const SlabParts<D> parts =
                 slab_over<D>(grid, {0, 0.1, 0.25, 0.4, 0.5}, specimens::bending_flow<D>());
             const Hull<D> whole = stitched<D>(parts, side);
-            for (const std::size_t count : {1u, 2u, 3u, 7u, 20u}) {
+            for (const int count : {1, 2, 3, 7, 20}) {
                 std::size_t cells = 0;
-                for (std::size_t r = 0; r < count; ++r) {
-                    IdCounter ids{1'000'000};
-                    HullOrder<D> order;
-                    const HullPart<D> part = stitch_part<D>(parts.initial, parts.sweep, parts.terminating,
-                                                            side, ids, {r, count}, order);
-                    REQUIRE(part.range.first == cells);
-                    cells += part.range.count;
-                    REQUIRE(part_is_of<D>(part, whole));
-                    REQUIRE(order.facet_patch == whole.facet_patch);
-                    REQUIRE(order.side_cells == whole.side_cells);
+                std::vector<HullPart<D>> made(static_cast<std::size_t>(count));
+                std::vector<HullOrder<D>> orders(made.size());
+                run_team(count, [&](Communicator& team) {
+                    const auto r = static_cast<std::size_t>(team.rank());
+                    made[r] = part_by_rank<D>(parts, side, team, orders[r]);
+                });
+                for (std::size_t r = 0; r < made.size(); ++r) {
+                    REQUIRE(made[r].range.first == cells);
+                    cells += made[r].range.count;
+                    REQUIRE(part_is_of<D>(made[r], whole));
+                    REQUIRE(orders[r].facet_patch == whole.facet_patch);
+                    REQUIRE(orders[r].side_cells == whole.side_cells);
+                    const CapCells<D> cap = terminating_cells_of(made[r], orders[r]);
+                    REQUIRE(cap.all == parts.terminating.cells.size());
+                    for (std::size_t c = 0; c < cap.cells.size(); ++c) {
+                        REQUIRE(cap.cells[c] == parts.terminating.cells[cap.range.first + c]);
+                        REQUIRE(cap.neighbors[c] == parts.terminating.neighbors[cap.range.first + c]);
+                    }
                 }
                 REQUIRE(cells == whole.cells.size());
             }
         }
     }
+}
+
+TEMPLATE_TEST_CASE_SIG("ranks refuse a cap that does not fit its boundary, all of them", "[stitch]",
+                       ((int D), D), 2, 3) {
+    SlabParts<D> parts = slab_over<D>(specimens::box_with_body<D>(), {0, 0.5}, specimens::bending_flow<D>());
+    std::swap(parts.terminating.boundary_facets[3][0], parts.terminating.boundary_facets[3][1]);
+    std::atomic<int> refused{0};
+    CHECK_THROWS_AS(run_team(3,
+                             [&](Communicator& team) {
+                                 HullOrder<D> order;
+                                 try {
+                                     part_by_rank<D>(parts, all_sides<D>().front(), team, order);
+                                 } catch (const GeometryError&) {
+                                     ++refused;
+                                     throw;
+                                 }
+                             }),
+                    GeometryError);
+    CHECK(refused == 3);
 }
 
 TEMPLATE_TEST_CASE_SIG("the number of threads changes no byte", "[stitch]", ((int D), D), 2, 3) {

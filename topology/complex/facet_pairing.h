@@ -2,7 +2,11 @@
 #pragma once
 
 #include "slabhull/core/point.h"
+#include "slabhull/topology/spatial_mesh.h"
+#include "topology/complex/corners.h"
+#include "topology/complex/whole_mesh.h"
 
+#include <cstddef>
 #include <span>
 
 namespace slabhull {
@@ -14,10 +18,60 @@ namespace slabhull {
 template<int D>
 bool pairs_facets(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> claimed);
 
-/// Whether the same holds for facet i of one cell. Needs: vertices in range; false for a neighbour that is
-/// none.
+/// Whether two facets are the same with opposite orientations: the second is a rotation of the first
+/// reversed.
 template<int D>
-bool is_paired(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> claimed, Index cell,
-               std::size_t i);
+bool are_opposite(const Facet<D>& a, const Facet<D>& b) {
+    bool any = false;
+    for (std::size_t shift = D == 2 ? 1 : 0; shift < D; ++shift) {
+        bool same = true;
+        for (std::size_t k = 0; k < D; ++k) {
+            same &= a[k] == b[(shift + D - k) % D];
+        }
+        any |= same;
+    }
+    return any;
+}
+
+/// Compares facets of a mesh with what is said to be across them. Needs: vertices in range.
+template<int D, class Mesh>
+class FacetPairing {
+public:
+    explicit FacetPairing(const Mesh& mesh) : mesh_{mesh} {}
+
+    /// How many facets of a cell are shared, mutually, with cells that come after it.
+    std::size_t pairs_of(Index cell) const {
+        const Simplex<D>& corners = mesh_.cell(cell);
+        const Index all = parity<D>(corners);
+        std::size_t pairs = 0;
+        for (std::size_t i = 0; i <= D; ++i) {
+            const Index across = mesh_.neighbor(cell, i);
+            if (across <= cell || across >= mesh_.size()) {
+                continue;
+            }
+            pairs += agree(cell, i, across, all) ? 1 : 0;
+        }
+        return pairs;
+    }
+
+    /// Whether facet i of a cell is shared, mutually, with another cell. False for a neighbour that is none.
+    bool is_paired(Index cell, std::size_t i) const {
+        const Index across = mesh_.neighbor(cell, i);
+        return across < mesh_.size() && across != cell && agree(cell, i, across, parity<D>(mesh_.cell(cell)));
+    }
+
+private:
+    /// `all`: the parity of the cell.
+    bool agree(Index cell, std::size_t i, Index across, Index all) const {
+        const Simplex<D>& corners = mesh_.cell(cell);
+        const Simplex<D>& others = mesh_.cell(across);
+        const std::size_t place = place_of<D>(parity<D>(others) ^ all ^ corners[i], others);
+        return mesh_.neighbor(across, place) == cell &&
+               are_opposite<D>(outward_facet<D>(corners, static_cast<int>(i)),
+                               outward_facet<D>(others, static_cast<int>(place)));
+    }
+
+    Mesh mesh_;
+};
 
 } // namespace slabhull

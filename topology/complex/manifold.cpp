@@ -293,7 +293,7 @@ private:
         std::atomic<std::size_t> cells{0};
         std::atomic<std::size_t> link_vertices{0};
         parallel_for(last - first, vertices_per_walk, [&](std::size_t begin, std::size_t end) {
-            auto stars = counters_.take([&] { return StarCounter<D>{cells_, adjacency_.neighbors}; });
+            auto stars = counters_.take([&] { return StarCounter<D>{{cells_, adjacency_.neighbors}}; });
             std::size_t in_stars = 0;
             std::size_t in_links = 0;
             for (std::size_t k = begin; k < end; ++k) {

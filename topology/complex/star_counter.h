@@ -4,6 +4,7 @@
 #include "core/hash.h"
 #include "slabhull/core/point.h"
 #include "topology/complex/corners.h"
+#include "topology/complex/whole_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -78,11 +79,10 @@ private:
 
 /// Counts the stars of vertices. StarWalker tells which cells are in one; this only counts, which is
 /// faster. Needs: neighbours that share the facets they are said to share, and are so mutually.
-template<int D>
+template<int D, class Mesh = WholeMesh<D>>
 class StarCounter {
 public:
-    StarCounter(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> neighbors)
-        : cells_{cells}, neighbors_{neighbors}, reached_(64) {}
+    explicit StarCounter(const Mesh& mesh) : mesh_{mesh}, reached_(64) {}
 
     struct Count {
         std::size_t cells;    ///< reached from the first through facets at the vertex
@@ -100,10 +100,7 @@ public:
     }
 
     /// Prefetches a cell that is looked at soon.
-    void prefetch(Index cell) const {
-        __builtin_prefetch(&cells_[cell]);
-        __builtin_prefetch(&neighbors_[cell]);
-    }
+    void prefetch(Index cell) const { mesh_.prefetch(cell); }
 
 private:
     struct Reached {
@@ -182,7 +179,7 @@ private:
         std::size_t reached = met_cells_.insert(first);
         const auto look_through = [&](Index cell, const Simplex<D>& corners, std::size_t at,
                                       std::size_t place, Index all) {
-            const Index neighbor = neighbors_[cell][place];
+            const Index neighbor = mesh_.neighbor(cell, place);
             const Index across = neighbor != no_index ? neighbor : cell;
             prefetch(across);
             reached_[reached] = {across, all ^ corners[place]};
@@ -192,18 +189,18 @@ private:
             // A facet between two cells that were met is seen from both: count it once.
             facets.insert(others, (vertex < smallest) & ((is_new != 0) | (cell < across)));
         };
-        const std::size_t at_first = place_of<D>(vertex, cells_[first]);
+        const std::size_t at_first = place_of<D>(vertex, mesh_.cell(first));
         for (std::size_t place = 0; place <= D; ++place) {
-            met_vertices_.insert(cells_[first][place]);
+            met_vertices_.insert(mesh_.cell(first)[place]);
             if (place != at_first) {
-                look_through(first, cells_[first], at_first, place, parity<D>(cells_[first]));
+                look_through(first, mesh_.cell(first), at_first, place, parity<D>(mesh_.cell(first)));
             }
         }
         for (std::size_t k = 1; k < reached; ++k) {
             make_room(reached);
             facets.reserve(D);
             const auto [cell, facet] = reached_[k];
-            const Simplex<D>& corners = cells_[cell];
+            const Simplex<D>& corners = mesh_.cell(cell);
             const Index all = parity<D>(corners);
             const Index apex = all ^ facet;
             met_vertices_.insert(apex);
@@ -235,8 +232,7 @@ private:
         met_vertices_.reserve(1);
     }
 
-    std::span<const Simplex<D>> cells_;
-    std::span<const Neighbors<D>> neighbors_;
+    Mesh mesh_;
     MarkSet<Index> met_cells_;
     MarkSet<Index> met_vertices_;
     QuickFacets quick_facets_;

@@ -94,6 +94,10 @@ public:
     std::vector<Array<T>> all_to_all(const std::vector<Array<T>>& to) {
         return pass_on<T>(Call::all_to_all, {to.begin(), to.end()});
     }
+    template<class T>
+    std::vector<Array<T>> all_to_all(const std::vector<std::span<const T>>& to) {
+        return pass_on<T>(Call::all_to_all, to);
+    }
     /// The list that rank `root` has.
     template<class T>
     Array<T> broadcast(std::span<const T> list, int root) {

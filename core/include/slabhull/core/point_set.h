@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace slabhull {
@@ -18,6 +19,8 @@ public:
     bool contains(std::size_t point) const {
         return (words_[point / word_bits] >> point % word_bits & 1) != 0;
     }
+    /// The bits of points 0 to 63, then of 64 to 127 and so on; those of no point are 0.
+    std::span<const std::uint64_t> words() const { return words_; }
     void insert(std::size_t point) { words_[point / word_bits] |= std::uint64_t{1} << point % word_bits; }
     /// Inserts all points that the other set does not contain.
     void insert_complement(const PointSet& other);

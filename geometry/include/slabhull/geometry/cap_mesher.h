@@ -29,9 +29,9 @@ struct CapOptions {
     /// Orders interior points and cells along a space-filling curve instead of leaving the mesher's order (D
     /// = 3; for D = 2 always): walks and checks run about twice as fast on such a mesh.
     bool curve_order = true;
-    /// Ranks that mesh the blocks together, each those whose number is its own modulo their count, and that
-    /// all get the whole mesh; nullptr: this process alone. All of them call mesh_cap(), with the same
-    /// arguments and `blocks` given (D = 3; for D = 2 each meshes for itself).
+    /// Ranks that mesh the blocks together, each those whose number is its own modulo their count; nullptr:
+    /// this process alone. All of them call mesh_cap(), with the same arguments and `blocks` given (D = 3).
+    /// All get the points; the cells stay on the first rank, which joins the blocks.
     Communicator* ranks = nullptr;
 };
 
@@ -84,5 +84,10 @@ CapMesh<3> mesh_cap<3>(const Boundary<3>& boundary, const Surface<3>& surface, c
 /// Cost: linear; about 2 % of the meshing.
 template<int D>
 void verify_cap(const CapMesh<D>& mesh, const Surface<D>& surface);
+
+/// A mesh that the first of several ranks has made: all get its points and number of blocks, the cells stay
+/// there. Collective.
+template<int D>
+CapMesh<D> with_shared_points(CapMesh<D> mesh, Communicator& ranks);
 
 } // namespace slabhull

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/core/communicator.h"
 #include "slabhull/slab/check.h"
+#include "slabhull/slab/hull_part.h"
 
 #include <cstddef>
 #include <optional>
@@ -31,5 +33,13 @@ struct EmbeddingSummary {
 template<int D>
 std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, const CheckOptions& options,
                                                 HullReport& report, bool torn = true);
+
+/// The same of a hull whose parts are on ranks, in which check_parts() has found nothing: `report` is its
+/// report. Each rank examines its own cells and those of later ranks that may meet them; all get the same
+/// findings, in numbers of the whole hull, and the same summary. Collective.
+template<int D>
+EmbeddingSummary check_embedding_of_parts(const HullPart<D>& part, const HullOrder<D>& order,
+                                          Communicator& ranks, const CheckOptions& options,
+                                          HullReport& report);
 
 } // namespace slabhull

@@ -5,6 +5,7 @@
 #include "slabhull/slab/domain.h"
 #include "slabhull/slab/slab.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct MarchState {
     /// The boundary of `cap`, with its places at the motion's start, which series of displacements and
     /// stretching patches refer to. Its connectivity stays, unless AdaptOptions::boundary is set.
     Boundary<D> boundary;
+    /// In ranks: the cells of `cap` that this one has; `cap` itself then has none.
+    std::optional<CapCells<D>> cells{};
 };
 
 /// A march that begins with a domain at time `time`.
@@ -75,6 +78,7 @@ private:
     static bool goes_on(const WorkState&) { return true; }
     void require_times(const std::vector<double>& times) const;
     /// Identifies the initial cap; -1 if it has no vertices.
+    CapToStitch<D> give_up_cap();
     PersistentId first_id() const { return state_.cap.vertex_ids.empty() ? -1 : state_.cap.vertex_ids[0]; }
 
     MarchState<D> state_;

@@ -31,8 +31,8 @@ struct SlabSettings {
     CapReuse reuse = CapReuse::none;
     double reuse_angle = 5; ///< degrees: a moved cap with a smaller angle is meshed anew
     AdaptOptions adapt;     ///< of CapReuse::adapt
-    /// Ranks that build each slab together, all with the same settings, caps and times: each stitches its
-    /// part of the hull (Slab::part). nullptr: this process alone, the whole hull. Not with CapReuse::adapt.
+    /// Ranks that build each slab together, all with the same settings and times: each stitches its part of
+    /// the hull (Slab::part). nullptr: this process alone, the whole hull. Not with CapReuse::adapt.
     Communicator* ranks = nullptr;
 };
 
@@ -51,8 +51,8 @@ struct Slab {
     std::optional<std::size_t> layers_enough; ///< ... and a sufficient number if too few were given
     IdCounter next_ids;                       ///< the next slab's new ids start here
 
-    /// In ranks: this rank's part of the hull, and the whole terminating cap. `hull` then has the order of
-    /// the whole, and its points and cells on rank 0 only, which checks it.
+    /// In ranks: this rank's part of the hull, and the terminating cap without its cells, which are in the
+    /// parts. `hull` then has the order of the whole only.
     std::optional<HullPart<D>> part;
     std::optional<SpatialMesh<D>> cap;
 

@@ -24,8 +24,8 @@ struct SoundHull {
 template<int D>
 SoundHull require_sound_hull(const Hull<D>& hull, const std::string& name, bool embedding, StageClock& clock);
 
-/// The same of a hull whose parts are on ranks: check_parts(). The embedding is proven on the first rank,
-/// which gathers the hull for that. Throws on all ranks, or on none. Collective.
+/// The same of a hull whose parts are on ranks: check_parts() and check_embedding_of_parts(). Throws on all
+/// ranks, or on none. Collective.
 template<int D>
 SoundHull require_sound_parts(const HullPart<D>& part, const HullOrder<D>& order, Communicator& ranks,
                               const std::string& name, bool embedding, StageClock& clock);

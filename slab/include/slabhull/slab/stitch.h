@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/slab/cap_cells.h"
 #include "slabhull/slab/hull_part.h"
 #include "slabhull/slab/id_counter.h"
 #include "slabhull/slab/sweep.h"
@@ -49,6 +50,25 @@ public:
         return tracks_.empty() ? std::span<const TrackId>{mesh_.track_ids}
                                : std::span<const TrackId>{tracks_};
     }
+    /// In ranks: the cells of the cap, of which mesh() then has none. They are given up.
+    void give_cells(CapCells<D>& cells) { cells_ = &cells; }
+    CapCells<D>& cells() const { return *cells_; }
+    /// While it lives, mesh() has the cells that were given for it. Needs: a cap that is given up.
+    class WithCells {
+    public:
+        explicit WithCells(CapToStitch& cap) : cap_{cap} { exchange(); }
+        WithCells(const WithCells&) = delete;
+        WithCells& operator=(const WithCells&) = delete;
+        ~WithCells() { exchange(); }
+
+    private:
+        void exchange() {
+            cap_.given_up_->cells.swap(cap_.cells_->cells);
+            cap_.given_up_->neighbors.swap(cap_.cells_->neighbors);
+        }
+
+        CapToStitch& cap_;
+    };
     /// Releases an array of a cap that is given up.
     template<class T>
     void release(Array<T> SpatialMesh<D>::*array) {
@@ -61,6 +81,7 @@ private:
     const SpatialMesh<D>& mesh_;
     SpatialMesh<D>* given_up_ = nullptr;
     Array<TrackId> tracks_;
+    CapCells<D>* cells_ = nullptr;
 };
 
 /// The terminating cap of a stitched hull, with its boundary facets, in the cap's own numbers.
@@ -78,19 +99,14 @@ template<int D>
 Hull<D> stitch(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
                const SideOptions& options, IdCounter& ids);
 
-/// Which part of a hull a rank makes.
-struct PartNumber {
-    std::size_t number = 0;
-    std::size_t parts = 1;
-};
-
-/// One part of the hull that stitch() would make, see range_of_part(), and the order of the whole. Every rank
-/// is given the same caps, sweep and ids; each takes time and memory for its own cells and for what follows
-/// from the boundary: its graph, and the diagonals of the layers that the part touches. The hull's points
-/// cost a bit each. Throws as stitch() does.
+/// This rank's part of the hull that stitch() would make, see range_of_part(), and the order of the whole.
+/// Every rank is given the caps' points, the sweep and the ids, and some of the caps' cells
+/// (CapToStitch::give_cells()), which are sent to where their part is. Each takes time and memory for its own
+/// cells and for what follows from the boundary: its graph, and the diagonals of the layers that the part
+/// touches. The hull's points cost a bit each. Collective. Throws as stitch() does, and UsageError for more
+/// ranks than cells.
 template<int D>
 HullPart<D> stitch_part(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
-                        const SideOptions& options, IdCounter& ids, const PartNumber& part,
-                        HullOrder<D>& order);
+                        const SideOptions& options, IdCounter& ids, Communicator& ranks, HullOrder<D>& order);
 
 } // namespace slabhull

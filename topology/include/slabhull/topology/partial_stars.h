@@ -11,12 +11,34 @@
 
 namespace slabhull {
 
-/// Some cells of a mesh: all that have one of the wanted vertices, and perhaps others.
+/// Some cells of a mesh: all that have one of the wanted vertices, and perhaps others. They are in two lists,
+/// own cells and ghosts, so that ghosts need no copy of the own ones; ghosts have the numbers after them.
 template<int D>
 struct PartialMesh {
-    std::span<const Simplex<D>> cells;
-    std::span<const Neighbors<D>> neighbors; ///< no_index for cells that are not here
-    std::span<const std::uint8_t> wanted;    ///< of each vertex, whether its star is to be examined
+    std::span<const Simplex<D>> own;
+    /// A cell of `own`, or own.size() + k for outside[k].
+    std::span<const Neighbors<D>> own_neighbors;
+    std::span<const Index> outside; ///< cells here that neighbours stand for; no_index for those not here
+    std::span<const Simplex<D>> ghosts;
+    std::span<const Neighbors<D>> ghost_neighbors; ///< cells here, or no_index
+    std::span<const std::uint8_t> wanted;          ///< of each vertex, whether its star is to be examined
+
+    std::size_t size() const { return own.size() + ghosts.size(); }
+    const Simplex<D>& cell(Index c) const { return c < own.size() ? own[c] : ghosts[c - own.size()]; }
+    Index neighbor(Index c, std::size_t i) const {
+        if (c >= own.size()) {
+            return ghost_neighbors[c - own.size()][i];
+        }
+        const Index across = own_neighbors[c][i];
+        return across < own.size() ? across : outside[across - own.size()];
+    }
+    /// Prefetches a cell that is looked at soon.
+    void prefetch(Index c) const {
+        if (c < own.size()) {
+            __builtin_prefetch(&own[c]);
+            __builtin_prefetch(&own_neighbors[c]);
+        }
+    }
 };
 
 struct StarCounts {
@@ -27,7 +49,8 @@ struct StarCounts {
 /// Whether the star of every wanted vertex is that of a closed oriented manifold: what confirm_manifold()
 /// proves of a whole mesh, vertex by vertex, so that parts whose wanted vertices are together all vertices
 /// prove it of the mesh. Nothing is trusted: each facet with a wanted vertex is compared with what is said to
-/// be across it. Empty where it is not so, for whatever reason. Cost: linear; 8 bytes per vertex.
+/// be across it. Empty where it is not so, for whatever reason. Needs: numbers in range. Cost: linear; 8
+/// bytes per vertex.
 template<int D>
 std::optional<StarCounts> confirm_stars(const PartialMesh<D>& mesh);
 

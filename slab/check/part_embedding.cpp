@@ -1,0 +1,560 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slab/check/part_embedding.h"
+
+#include "core/pieces.h"
+#include "geometry/embedding/box_tree.h"
+#include "geometry/embedding/cell_groups.h"
+#include "geometry/embedding/cell_pairs.h"
+#include "geometry/embedding/embedded_caps.h"
+#include "geometry/embedding/embedding_search.h"
+#include "slab/check/part_exchange.h"
+#include "slabhull/core/index.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace slabhull {
+
+namespace {
+
+constexpr std::int32_t no_rank = std::numeric_limits<std::int32_t>::max();
+
+/// The proof of embedded_caps.h for the caps of a hull in parts.
+template<int D>
+class CapsOfParts {
+public:
+    CapsOfParts(const HullPart<D>& part, Communicator& ranks) : part_{part}, ranks_{ranks} {
+        std::array<double, 2> here = time_span<D>(part.points, part.cells);
+        times_ = {ranks.min(here[0]), ranks.max(here[1])};
+        caps_ = find_caps<D>(part.points, part.cells, times_);
+        const auto outside = values_outside<CapOf>(part, ranks, [&](Index cell) { return caps_[cell]; });
+        caps_.insert(caps_.end(), outside.begin(), outside.end());
+    }
+
+    /// Whether both caps are embedded and keep apart from the side. Two ranks take the longest step at once.
+    bool are_embedded() const {
+        const std::array<OfHull, 2> boundary{gather(CapOf::first), gather(CapOf::last)};
+        const bool sound = together(ranks_, [&] {
+            bool proven = true;
+            for (std::size_t k = 0; k < 2; ++k) {
+                proven = proven && boundary[k].sign != 0;
+                if (ranks_.rank() == prover(k) && proven) {
+                    proven = bound_a_domain<D>(boundary[k].facets, boundary[k].points, boundary[k].sign);
+                }
+                proven = proven && keeps_to(boundary[k], times_[k]);
+            }
+            return proven;
+        });
+        return ranks_.min(sound ? 1 : 0) == 1;
+    }
+
+    CapOf cap_of(std::size_t cell) const { return caps_[cell]; }
+
+private:
+    /// The boundary of a cap of the whole hull.
+    struct OfHull {
+        int sign = 0;
+        Array<std::uint64_t> vertices; ///< of the hull, ascending
+        Array<Facet<D>> facets;        ///< in numbers of `vertices`
+        Array<Point<D>> points;        ///< of `vertices`; on the rank that proves
+    };
+    using FacetInHull = std::array<std::uint64_t, D>;
+    using Corners = std::array<Point<D>, D>;
+
+    int prover(std::size_t cap) const { return cap == 0 ? 0 : ranks_.size() - 1; }
+
+    OfHull gather(CapOf cap) const {
+        const CellsInCaps<D> here{part_.points, part_.cells, part_.neighbors, caps_};
+        OfHull whole;
+        CapSigns signs;
+        for (const CapSigns& each : ranks_.gather(signs_of_cap<D>(here, cap))) {
+            signs.add(each);
+        }
+        whole.sign = signs.common();
+        const Array<Facet<D>> own = outer_facets<D>(here, cap);
+        const Array<FacetInHull> facets = joined(ranks_.all_gather<FacetInHull>(in_hull(own)));
+        number(facets, whole);
+        std::vector<Array<Corners>> to(static_cast<std::size_t>(ranks_.size()));
+        to[static_cast<std::size_t>(prover(cap == CapOf::first ? 0 : 1))] = corners(own);
+        const Array<Corners> corners_there = joined(ranks_.all_to_all(to));
+        whole.points.resize(whole.vertices.size());
+        for (std::size_t f = 0; f < corners_there.size(); ++f) {
+            for (std::size_t i = 0; i < D; ++i) {
+                whole.points[whole.facets[f][i]] = corners_there[f][i];
+            }
+        }
+        return whole;
+    }
+
+    Array<FacetInHull> in_hull(const Array<Facet<D>>& facets) const {
+        Array<FacetInHull> result(facets.size());
+        for (std::size_t f = 0; f < facets.size(); ++f) {
+            for (std::size_t i = 0; i < D; ++i) {
+                result[f][i] = part_.points_used->member(facets[f][i]);
+            }
+        }
+        return result;
+    }
+
+    Array<Corners> corners(const Array<Facet<D>>& facets) const {
+        Array<Corners> result(facets.size());
+        for (std::size_t f = 0; f < facets.size(); ++f) {
+            for (std::size_t i = 0; i < D; ++i) {
+                std::copy_n(part_.points[facets[f][i]].begin(), D, result[f][i].begin());
+            }
+        }
+        return result;
+    }
+
+    static void number(const Array<FacetInHull>& facets, OfHull& whole) {
+        for (const FacetInHull& facet : facets) {
+            whole.vertices.insert(whole.vertices.end(), facet.begin(), facet.end());
+        }
+        sort_out(whole.vertices);
+        whole.facets.resize(facets.size());
+        for (std::size_t f = 0; f < facets.size(); ++f) {
+            for (std::size_t i = 0; i < D; ++i) {
+                const auto place =
+                    std::lower_bound(whole.vertices.begin(), whole.vertices.end(), facets[f][i]);
+                whole.facets[f][i] = static_cast<Index>(place - whole.vertices.begin());
+            }
+        }
+    }
+
+    bool keeps_to(const OfHull& boundary, double time) const {
+        Array<Index> on_boundary;
+        on_boundary.assign(part_.points.size(), no_index);
+        for (std::size_t k = 0; k < boundary.vertices.size(); ++k) {
+            if (part_.points_used->contains(boundary.vertices[k])) {
+                on_boundary[part_.points_used->rank(boundary.vertices[k])] = static_cast<Index>(k);
+            }
+        }
+        return side_keeps_to<D>({part_.points, part_.cells, part_.neighbors, caps_}, time, on_boundary,
+                                edges_of<D>(boundary.facets));
+    }
+
+    const HullPart<D>& part_;
+    Communicator& ranks_;
+    std::array<double, 2> times_;
+    std::vector<CapOf> caps_; ///< of the part's cells, then of those outside
+};
+
+/// A cell that is sent to another rank, in the hull's numbers.
+template<int D>
+struct SentCell {
+    std::uint64_t number;
+    std::array<std::uint64_t, D + 1> vertices;
+    std::array<std::uint64_t, D + 1> neighbors;
+};
+template<int D>
+struct SentPoint {
+    std::uint64_t number;
+    Point<D + 1> place;
+};
+
+/// What one rank sends to another, or has received from all: groups of tested cells, in order, and cells that
+/// are not tested but touch tested ones.
+template<int D>
+struct SentCells {
+    Array<std::uint8_t> sizes; ///< of the groups
+    Array<SentCell<D>> tested;
+    Array<SentCell<D>> touching;
+    Array<SentPoint<D>> points;
+};
+
+/// The cells of one rank's search: its own tested cells, those of later ranks that may meet them, then cells
+/// that are not tested but touch these.
+template<int D>
+struct CellsOfSearch {
+    Array<Point<D + 1>> points; ///< the part's, then others
+    Array<Simplex<D>> cells;
+    Array<Neighbors<D>> neighbors;
+    Array<std::uint8_t> sizes; ///< of the groups of tested cells
+    std::size_t own_groups = 0;
+    std::size_t own_cells = 0;   ///< tested ones
+    Array<std::uint64_t> others; ///< numbers in the hull of points that are not the part's
+};
+
+/// Brings together the cells that each rank's search needs.
+template<int D>
+class SearchAssembly {
+public:
+    SearchAssembly(const HullPart<D>& part, Communicator& ranks, std::vector<bool> tested)
+        : part_{part}, ranks_{ranks}, tested_{std::move(tested)}, own_{part.cells.size()},
+          touching_{part.cells.size()} {
+        for (std::size_t c = 0; c < tested_.size(); ++c) {
+            if (tested_[c]) {
+                own_.insert(c);
+            }
+        }
+        own_.count();
+        sizes_.reserve(own_.size() / 4);
+        for (const std::uint8_t size : group_sizes<D>(part.cells, tested_)) {
+            if (size > 0) {
+                sizes_.push_back(size);
+            }
+        }
+        owners_ = lowest_at_points<std::int32_t>(part, ranks, ranks_of_tested_points());
+    }
+
+    /// The lowest rank that has a tested cell at each point; no_rank where none has.
+    const Array<std::int32_t>& owners() const { return owners_; }
+
+    CellsOfSearch<D> run() {
+        const SentCells<D> others = exchange();
+        CellsOfSearch<D> all;
+        all.own_groups = sizes_.size();
+        all.own_cells = own_.size();
+        all.sizes = std::move(sizes_);
+        all.sizes.insert(all.sizes.end(), others.sizes.begin(), others.sizes.end());
+        list_points(others, all);
+        list_cells(others, all);
+        return all;
+    }
+
+    /// The hull's number of a tested cell that is here.
+    std::uint64_t number_of(Index cell) const {
+        return cell < own_.size() ? part_.range.first + own_.member(cell) : tested_here_[cell - own_.size()];
+    }
+
+private:
+    Array<std::int32_t> ranks_of_tested_points() const {
+        Array<std::int32_t> result;
+        result.assign(part_.points.size(), no_rank);
+        for (std::size_t c = 0; c < tested_.size(); ++c) {
+            for (const Index v : part_.cells[c]) {
+                result[v] = tested_[c] ? ranks_.rank() : result[v];
+            }
+        }
+        return result;
+    }
+
+    // --- what is sent
+
+    /// Calls visit(first, count) for each group of own tested cells: which of these.
+    template<class Visit>
+    void each_group(const Visit& visit) const {
+        std::size_t first = 0;
+        for (std::size_t g = 0; g < sizes_.size(); ++g) {
+            visit(g, first, std::size_t{sizes_[g]});
+            first += sizes_[g];
+        }
+    }
+
+    Array<Box<D + 1>> group_boxes() const {
+        Array<Box<D + 1>> boxes;
+        boxes.assign(sizes_.size(), Box<D + 1>{});
+        std::size_t cell = own_.size() > 0 ? own_.member(0) : 0;
+        each_group([&](std::size_t g, std::size_t first, std::size_t count) {
+            for (std::size_t k = first; k < first + count; ++k) {
+                boxes[g].include(box_of<D>(part_.cells[cell], part_.points));
+                cell = k + 1 < own_.size() ? own_.next(cell) : cell;
+            }
+        });
+        return boxes;
+    }
+
+    SentCells<D> exchange() {
+        std::vector<SentCells<D>> to(static_cast<std::size_t>(ranks_.size()));
+        list_groups_for_others(to);
+        list_touching_cells(to);
+        for (SentCells<D>& there : to) {
+            list_points_of(there);
+        }
+        SentCells<D> received;
+        received.sizes = passed(to, &SentCells<D>::sizes);
+        received.tested = passed(to, &SentCells<D>::tested);
+        received.touching = passed(to, &SentCells<D>::touching);
+        received.points = passed(to, &SentCells<D>::points);
+        return received;
+    }
+
+    /// Sends one of the lists to each rank and releases it; returns those that come, in the order of ranks.
+    template<class T>
+    Array<T> passed(std::vector<SentCells<D>>& to, Array<T> SentCells<D>::*list) const {
+        std::vector<Array<T>> lists(to.size());
+        for (std::size_t r = 0; r < to.size(); ++r) {
+            lists[r] = std::move(to[r].*list);
+        }
+        std::vector<Array<T>> received = ranks_.all_to_all(lists);
+        std::vector<Array<T>>{}.swap(lists);
+        return joined(std::move(received));
+    }
+
+    /// Groups go to the earlier ranks near whose cells they are.
+    void list_groups_for_others(std::vector<SentCells<D>>& to) const {
+        constexpr std::size_t most_boxes = 1 << 13; // of each rank: half a megabyte
+        const Array<Box<D + 1>> boxes = group_boxes();
+        const auto near = ranks_.all_gather<Box<D + 1>>(BoxTree<D + 1>{boxes}.at_most(most_boxes));
+        Array<Box<D + 1>> earlier;
+        std::vector<std::size_t> rank_of;
+        for (std::size_t r = 0; r < static_cast<std::size_t>(ranks_.rank()); ++r) {
+            earlier.insert(earlier.end(), near[r].begin(), near[r].end());
+            rank_of.resize(earlier.size(), r);
+        }
+        const BoxTree<D + 1> tree{earlier};
+        std::vector<std::size_t> targets;
+        each_group([&](std::size_t g, std::size_t first, std::size_t count) {
+            targets.clear();
+            tree.find(boxes[g], [&](Index box) { targets.push_back(rank_of[box]); });
+            sort_out(targets);
+            for (const std::size_t r : targets) {
+                to[r].sizes.push_back(sizes_[g]);
+                for (std::size_t k = first; k < first + count; ++k) {
+                    to[r].tested.push_back(as_sent(own_.member(k)));
+                }
+            }
+        });
+    }
+
+    /// Cells that are not tested go to the owners of their vertices, which prove the stars.
+    void list_touching_cells(std::vector<SentCells<D>>& to) {
+        for (std::size_t c = 0; c < tested_.size(); ++c) {
+            if (tested_[c]) {
+                continue;
+            }
+            std::array<std::int32_t, D + 1> owner;
+            for (std::size_t i = 0; i <= D; ++i) {
+                owner[i] = owners_[part_.cells[c][i]];
+            }
+            std::sort(owner.begin(), owner.end());
+            const auto end = std::unique(owner.begin(), owner.end());
+            for (auto r = owner.begin(); r != end && *r != no_rank; ++r) {
+                if (*r == ranks_.rank()) {
+                    touching_.insert(c);
+                } else {
+                    to[static_cast<std::size_t>(*r)].touching.push_back(as_sent(c));
+                }
+            }
+        }
+        touching_.count();
+    }
+
+    SentCell<D> as_sent(std::size_t c) const {
+        SentCell<D> sent{};
+        sent.number = part_.range.first + c;
+        for (std::size_t i = 0; i <= D; ++i) {
+            sent.vertices[i] = part_.points_used->member(part_.cells[c][i]);
+            sent.neighbors[i] = part_.in_hull(part_.neighbors[c][i]);
+        }
+        return sent;
+    }
+
+    void list_points_of(SentCells<D>& there) const {
+        Array<std::uint64_t> numbers;
+        for (const Array<SentCell<D>>* cells : {&there.tested, &there.touching}) {
+            for (const SentCell<D>& cell : *cells) {
+                numbers.insert(numbers.end(), cell.vertices.begin(), cell.vertices.end());
+            }
+        }
+        sort_out(numbers);
+        there.points.reserve(numbers.size());
+        for (const std::uint64_t number : numbers) {
+            there.points.push_back({number, part_.points[part_.points_used->rank(number)]});
+        }
+    }
+
+    // --- what is here
+
+    void list_points(const SentCells<D>& others, CellsOfSearch<D>& all) {
+        for (const SentPoint<D>& point : others.points) {
+            if (!part_.points_used->contains(point.number)) {
+                all.others.push_back(point.number);
+            }
+        }
+        sort_out(all.others);
+        all.points.resize(part_.points.size() + all.others.size());
+        std::copy(part_.points.begin(), part_.points.end(), all.points.begin());
+        for (const SentPoint<D>& point : others.points) {
+            all.points[point_here(point.number, all)] = point.place;
+        }
+    }
+
+    Index point_here(std::uint64_t number, const CellsOfSearch<D>& all) const {
+        if (part_.points_used->contains(number)) {
+            return static_cast<Index>(part_.points_used->rank(number));
+        }
+        const auto place = std::lower_bound(all.others.begin(), all.others.end(), number);
+        return static_cast<Index>(part_.points.size() + static_cast<std::size_t>(place - all.others.begin()));
+    }
+
+    void list_cells(const SentCells<D>& others, CellsOfSearch<D>& all) {
+        for (const SentCell<D>& cell : others.tested) {
+            tested_here_.push_back(cell.number);
+        }
+        for (const SentCell<D>& cell : others.touching) {
+            touching_here_.push_back(cell.number);
+        }
+        const std::size_t count =
+            own_.size() + others.tested.size() + touching_.size() + others.touching.size();
+        checked_index(count, "cells of a part");
+        all.cells.reserve(count);
+        all.neighbors.reserve(count);
+        add_own(own_, all);
+        add_received(others.tested, all);
+        add_own(touching_, all);
+        add_received(others.touching, all);
+    }
+
+    void add_own(const PointSet& which, CellsOfSearch<D>& all) const {
+        std::size_t c = which.size() > 0 ? which.member(0) : 0;
+        for (std::size_t k = 0; k < which.size(); ++k) {
+            all.cells.push_back(part_.cells[c]);
+            Neighbors<D>& row = all.neighbors.emplace_back();
+            for (std::size_t i = 0; i <= D; ++i) {
+                row[i] = cell_here(part_.in_hull(part_.neighbors[c][i]));
+            }
+            c = k + 1 < which.size() ? which.next(c) : c;
+        }
+    }
+
+    void add_received(const Array<SentCell<D>>& cells, CellsOfSearch<D>& all) const {
+        for (const SentCell<D>& sent : cells) {
+            Simplex<D>& cell = all.cells.emplace_back();
+            Neighbors<D>& row = all.neighbors.emplace_back();
+            for (std::size_t i = 0; i <= D; ++i) {
+                cell[i] = point_here(sent.vertices[i], all);
+                row[i] = cell_here(sent.neighbors[i]);
+            }
+        }
+    }
+
+    Index cell_here(std::uint64_t number) const {
+        const std::size_t c = number - part_.range.first;
+        std::size_t before = 0;
+        if (c < part_.range.count) {
+            if (own_.contains(c)) {
+                return static_cast<Index>(own_.rank(c));
+            }
+            before = own_.size() + tested_here_.size();
+            return touching_.contains(c) ? static_cast<Index>(before + touching_.rank(c)) : no_index;
+        }
+        before = own_.size();
+        for (const Array<std::uint64_t>* list : {&tested_here_, &touching_here_}) {
+            const auto place = std::lower_bound(list->begin(), list->end(), number);
+            if (place != list->end() && *place == number) {
+                return static_cast<Index>(before + static_cast<std::size_t>(place - list->begin()));
+            }
+            before += tested_here_.size() + touching_.size();
+        }
+        return no_index;
+    }
+
+    const HullPart<D>& part_;
+    Communicator& ranks_;
+    std::vector<bool> tested_;
+    PointSet own_;      ///< the part's cells that are tested, ...
+    PointSet touching_; ///< ... and those that are not, but complete a star
+    Array<std::uint8_t> sizes_;
+    Array<std::int32_t> owners_;
+    Array<std::uint64_t> tested_here_;   ///< numbers in the hull of cells received, ascending
+    Array<std::uint64_t> touching_here_; ///< the same
+};
+
+template<int D>
+class PartSearch {
+public:
+    PartSearch(const HullPart<D>& part, Communicator& ranks, std::size_t limit)
+        : part_{part}, ranks_{ranks}, limit_{limit} {}
+
+    PartsEmbedding<D> run() {
+        PartsEmbedding<D> result;
+        std::vector<bool> tested = select(result.all);
+        SearchAssembly<D> assembly{part_, ranks_, std::move(tested)};
+        const CellsOfSearch<D> here = assembly.run();
+        const CellGroups<D> groups{here.cells, here.points.size(), here.sizes};
+        const auto is_complete = [&](Index v) {
+            return v < part_.points.size() && assembly.owners()[v] == ranks_.rank();
+        };
+        const HullEmbedding<D> own =
+            search_crossings<D>({here.points, here.cells, here.neighbors, groups, here.own_groups,
+                                 is_complete, [&](Array<StarState>& stars) { complete_stars_of(stars); }},
+                                limit_);
+        reduce(own, here, assembly, result);
+        return result;
+    }
+
+private:
+    std::vector<bool> select(HullEmbedding<D>& all) const {
+        const CapsOfParts<D> caps{part_, ranks_};
+        all.caps_proven = caps.are_embedded();
+        std::vector<bool> tested(part_.cells.size());
+        for (std::size_t c = 0; c < tested.size(); ++c) {
+            tested[c] = !all.caps_proven || caps.cap_of(c) == CapOf::none;
+        }
+        all.tested_cells =
+            ranks_.sum(static_cast<std::size_t>(std::count(tested.begin(), tested.end(), true)));
+        return tested;
+    }
+
+    /// Tells the other ranks at a vertex that its star is proven.
+    void complete_stars_of(Array<StarState>& stars) const {
+        Array<std::uint8_t> open(part_.points.size());
+        for (std::size_t v = 0; v < open.size(); ++v) {
+            open[v] = stars[v] == StarState::proven ? 0 : 1;
+        }
+        open = lowest_at_points<std::uint8_t>(part_, ranks_, open);
+        for (std::size_t v = 0; v < open.size(); ++v) {
+            stars[v] = open[v] == 0 ? StarState::proven : stars[v];
+        }
+    }
+
+    void reduce(const HullEmbedding<D>& own, const CellsOfSearch<D>& here, const SearchAssembly<D>& assembly,
+                PartsEmbedding<D>& result) const {
+        HullEmbedding<D>& all = result.all;
+        all.all_listed = ranks_.min(own.all_listed ? 1 : 0) == 1;
+        all.stars = ranks_.sum(own.stars);
+        all.proven_stars = ranks_.sum(own.proven_stars);
+        all.group_pairs = ranks_.sum(own.group_pairs);
+        all.tested_pairs = ranks_.sum(own.tested_pairs);
+        all.exact_pairs = ranks_.sum(own.exact_pairs);
+        std::vector<CrossingInHull<D>> mine;
+        for (const Crossing<D + 1>& crossing : own.crossings) {
+            if (crossing.first != crossing.second) {
+                mine.push_back(in_hull(crossing, here, assembly));
+            }
+        }
+        const auto found = joined(ranks_.all_gather<CrossingInHull<D>>(mine));
+        result.crossings.assign(found.begin(), found.end());
+        std::sort(result.crossings.begin(), result.crossings.end(), [](const auto& a, const auto& b) {
+            return std::tie(a.cells.first, a.cells.second) < std::tie(b.cells.first, b.cells.second);
+        });
+        if (result.crossings.size() > limit_) {
+            result.crossings.resize(limit_);
+            all.all_listed = false;
+        }
+    }
+
+    static CrossingInHull<D> in_hull(const Crossing<D + 1>& crossing, const CellsOfSearch<D>& here,
+                                     const SearchAssembly<D>& assembly) {
+        CrossingInHull<D> result{crossing, {}};
+        std::array<std::pair<std::uint64_t, std::array<double, 2>>, 2> cells;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Index cell = k == 0 ? crossing.first : crossing.second;
+            cells[k] = {assembly.number_of(cell), time_span<D>(here.points, {&here.cells[cell], 1})};
+        }
+        std::sort(cells.begin(), cells.end());
+        result.cells.first = static_cast<Index>(cells[0].first);
+        result.cells.second = static_cast<Index>(cells[1].first);
+        result.times = {cells[0].second, cells[1].second};
+        return result;
+    }
+
+    const HullPart<D>& part_;
+    Communicator& ranks_;
+    std::size_t limit_;
+};
+
+} // namespace
+
+template<int D>
+PartsEmbedding<D> examine_parts(const HullPart<D>& part, Communicator& ranks, std::size_t limit) {
+    return together(ranks, [&] { return PartSearch<D>{part, ranks, limit}.run(); });
+}
+
+template PartsEmbedding<2> examine_parts<2>(const HullPart<2>&, Communicator&, std::size_t);
+template PartsEmbedding<3> examine_parts<3>(const HullPart<3>&, Communicator&, std::size_t);
+
+} // namespace slabhull
