@@ -163,6 +163,7 @@ void Communicator::agree(Call call, std::uint64_t bytes) {
         std::rethrow_exception(failure_);
     }
     go_on();
+    ++meetings_;
     const Meeting mine{0, depth_, static_cast<std::int32_t>(call), 0, bytes};
     std::vector<Meeting> all(static_cast<std::size_t>(size_));
     exchange(&mine, sizeof mine, all.data());

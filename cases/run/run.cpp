@@ -490,7 +490,10 @@ private:
         return {{"number", ranks_->size()},
                 {"cells", ranks_->gather(slab.part->cells.size())},
                 {"peak_memory", ranks_->gather(peak_memory())},
-                {"mesher_peak_memory", ranks_->gather(peak_memory_of_children())}};
+                {"mesher_peak_memory", ranks_->gather(peak_memory_of_children())},
+                {"cpu_seconds", ranks_->gather(cpu_seconds())},
+                {"sent_bytes", ranks_->gather(ranks_->sent_bytes())},
+                {"meetings", ranks_->meetings()}};
     }
 
     /// Throws what went wrong with it.

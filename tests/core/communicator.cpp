@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <atomic>
 #include <mutex>
 #include <numeric>
@@ -54,6 +55,18 @@ TEST_CASE("sums of floating-point numbers are the same on all ranks") {
         sums[static_cast<std::size_t>(ranks.rank())] = ranks.sum(1.0 / (1 + ranks.rank()));
     });
     CHECK(std::all_of(sums.begin(), sums.end(), [&](double sum) { return sum == sums[0]; }));
+}
+
+TEST_CASE("what a rank sends to others is counted, and how often it meets them") {
+    std::atomic<int> right{0};
+    run_team(3, [&](Communicator& ranks) {
+        const std::array<std::int32_t, 5> mine{};
+        ranks.all_gather<std::int32_t>(mine);               // to two others
+        ranks.broadcast<std::int32_t>({mine.data(), 4}, 1); // from one
+        const std::uint64_t expected = 2 * sizeof mine + (ranks.rank() == 1 ? 2 * 16 : 0);
+        right += ranks.sent_bytes() == expected && ranks.meetings() == 2 ? 1 : 0;
+    });
+    CHECK(right == 3);
 }
 
 TEST_CASE("lists of any length go to all ranks, from one, and between any two") {

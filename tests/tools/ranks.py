@@ -123,6 +123,9 @@ class Report(RanksTest):
         self.assertEqual(ranks["number"], 2)
         self.assertLessEqual(abs(ranks["cells"][0] - ranks["cells"][1]), 1)
         self.assertEqual(len(ranks["peak_memory"]), 2)
+        self.assertGreater(ranks["meetings"], 10)
+        for sent, cells in zip(ranks["sent_bytes"], ranks["cells"]):
+            self.assertTrue(0 < sent < 1000 * cells, f"{sent} bytes for {cells} cells")
 
     def test_one_rank_speaks(self):
         result = mpirun(3, "build", self.case(circle("centre")), "--out", self.dir / "out")

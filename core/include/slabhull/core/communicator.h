@@ -36,6 +36,11 @@ public:
     int size() const { return size_; }
     /// Whether this is rank 0, which speaks for all.
     bool first() const { return rank_ == 0; }
+    /// Bytes of lists that this rank has sent to others so far; what little each call needs beside is not
+    /// counted.
+    std::uint64_t sent_bytes() const { return sent_bytes_; }
+    /// How often this rank has met the others so far.
+    std::uint64_t meetings() const { return meetings_; }
 
     void barrier() { agree(Call::barrier, 0); }
 
@@ -157,6 +162,7 @@ private:
         for (std::size_t r = 0; r < ranks; ++r) {
             from[r].resize(lengths[r * ranks + static_cast<std::size_t>(rank_)]);
             out[r] = std::as_bytes(to[r]);
+            sent_bytes_ += r != static_cast<std::size_t>(rank_) ? out[r].size() : 0;
             in[r] = std::as_writable_bytes(std::span<T>{from[r]});
         }
         pass(out, in);
@@ -165,6 +171,8 @@ private:
 
     int rank_;
     int size_;
+    std::uint64_t sent_bytes_ = 0;
+    std::uint64_t meetings_ = 0;
     std::int32_t depth_ = 0;        ///< scopes around the work
     std::exception_ptr failure_{};  ///< that all ranks have learnt of and still unwind from, ...
     std::int32_t failed_depth_ = 0; ///< ... down to this depth
