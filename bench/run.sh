@@ -31,6 +31,7 @@ run bench_slab_stages 7 3 "$out/stages"
 run bench_slab_orders
 run bench_slab_adapt 0.6 5 2
 run bench_slab_fill 64 A
+run bench_slab_partition 1
 run bench_slab_fill 64 C
 run bench_slab_stitch --benchmark_min_time=0.3
 run bench_topology_matching --benchmark_min_time=0.2
