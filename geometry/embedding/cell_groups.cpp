@@ -109,43 +109,56 @@ private:
 
 } // namespace
 
+/// Ranges that are cut one by one are counted from the first tested cell, where prisms begin.
 template<int D>
 std::vector<std::uint8_t> group_sizes(std::span<const Simplex<D>> cells, const std::vector<bool>& test) {
-    return parallel_gather<std::uint8_t>(
-        test.size(), grain, [&](std::size_t begin, std::size_t end, std::vector<std::uint8_t>& sizes) {
-            sizes = PrismFinder<D>{cells, test}.cut(begin, end);
+    const auto start = static_cast<std::size_t>(std::find(test.begin(), test.end(), true) - test.begin());
+    std::vector<std::uint8_t> sizes(start, 0);
+    const auto found = parallel_gather<std::uint8_t>(
+        test.size() - start, grain,
+        [&](std::size_t begin, std::size_t end, std::vector<std::uint8_t>& piece) {
+            piece = PrismFinder<D>{cells, test}.cut(start + begin, start + end);
         });
+    sizes.insert(sizes.end(), found.begin(), found.end());
+    return sizes;
 }
 
 template<int D>
 CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
                           const std::vector<bool>& test)
-    : all_cells_{cells} {
+    : mesh_{cells, {}, {}, {}, {}, {}} {
     cells_before_.push_back(0);
     add_prisms(test);
-    tested_ = first_cell_.size();
+    tested_ = own_;
     add_touching(test);
     finish(vertex_count);
 }
 
 template<int D>
-CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
-                          std::span<const std::uint8_t> sizes)
-    : all_cells_{cells} {
+CellGroups<D>::CellGroups(const PartialMesh<D>& mesh, std::size_t vertex_count, const std::vector<bool>& test,
+                          std::span<const std::uint8_t> ghost_sizes, const PointSet& touching)
+    : mesh_{mesh} {
     cells_before_.push_back(0);
-    for (const std::uint8_t size : sizes) {
-        add_group(cells_before_.back(), size);
+    add_prisms(test);
+    std::size_t ghost = mesh.own.size();
+    for (const std::uint8_t size : ghost_sizes) {
+        add_group(ghost, size);
+        ghost += size;
     }
     tested_ = first_cell_.size();
-    while (cells_before_.back() < cells.size()) {
-        add_group(cells_before_.back(), 1);
+    for (std::size_t k = 0, c = 0; k < touching.size(); ++k) {
+        c = k == 0 ? touching.member(0) : touching.next(c);
+        add_group(c, 1);
+    }
+    for (; ghost < mesh.size(); ++ghost) {
+        add_group(ghost, 1);
     }
     finish(vertex_count);
 }
 
 template<int D>
 void CellGroups<D>::finish(std::size_t vertex_count) {
-    first_cell_.push_back(static_cast<Index>(all_cells_.size())); // keeps count() simple
+    first_cell_.push_back(static_cast<Index>(mesh_.size())); // keeps count() simple
     list_vertices();
     list_groups(vertex_count);
 }
@@ -158,30 +171,29 @@ void CellGroups<D>::add_group(std::size_t first, std::size_t count) {
 
 template<int D>
 void CellGroups<D>::add_prisms(const std::vector<bool>& test) {
-    const auto start = static_cast<std::size_t>(std::find(test.begin(), test.end(), true) - test.begin());
-    std::size_t c = start;
-    const std::vector<bool> from_start{test.begin() + static_cast<std::ptrdiff_t>(start), test.end()};
-    for (const std::uint8_t count : group_sizes<D>(all_cells_.subspan(start), from_start)) {
+    std::size_t c = 0;
+    for (const std::uint8_t count : group_sizes<D>(mesh_.own, test)) {
         if (count > 0) {
             add_group(c, count);
         }
         c += std::max<std::size_t>(count, 1);
     }
+    own_ = first_cell_.size();
 }
 
 template<int D>
 void CellGroups<D>::add_touching(const std::vector<bool>& test) {
     std::vector<bool> touched;
-    for (std::size_t c = 0; c < all_cells_.size(); ++c) {
-        for (const Index v : all_cells_[c]) {
+    for (std::size_t c = 0; c < mesh_.own.size(); ++c) {
+        for (const Index v : mesh_.own[c]) {
             if (test[c]) {
                 touched.resize(std::max<std::size_t>(touched.size(), v + std::size_t{1}));
                 touched[v] = true;
             }
         }
     }
-    for (std::size_t c = 0; c < all_cells_.size(); ++c) {
-        const auto& cell = all_cells_[c];
+    for (std::size_t c = 0; c < mesh_.own.size(); ++c) {
+        const auto& cell = mesh_.own[c];
         if (!test[c] && std::any_of(cell.begin(), cell.end(),
                                     [&](Index v) { return v < touched.size() && touched[v]; })) {
             add_group(c, 1);
@@ -194,7 +206,7 @@ void CellGroups<D>::list_vertices() {
     const auto vertices_of = [&](std::size_t group) {
         VertexSet<D> set;
         for (std::size_t k = 0; k < cell_count(group); ++k) {
-            set.add(all_cells_[first_cell_[group] + k]);
+            set.add(mesh_.cell(static_cast<Index>(first_cell_[group] + k)));
         }
         return set;
     };

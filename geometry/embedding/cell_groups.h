@@ -5,6 +5,8 @@
 
 #include "slabhull/core/array.h"
 #include "slabhull/core/point.h"
+#include "slabhull/core/point_set.h"
+#include "slabhull/topology/partial_stars.h"
 
 #include <array>
 #include <cstddef>
@@ -26,11 +28,14 @@ public:
 
     /// `test`: one flag per cell.
     CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, const std::vector<bool>& test);
-    /// Groups that are known: `sizes` are those of the tested ones, which the first cells are in. The cells
-    /// after these are not tested.
-    CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
-               std::span<const std::uint8_t> sizes);
+    /// Those of a mesh with ghosts. `test`: one flag per own cell. `ghost_sizes`: of the groups that the
+    /// first ghosts are in, which are tested, too. Of the own cells that are not, those of `touching` count;
+    /// and so do the other ghosts.
+    CellGroups(const PartialMesh<D>& mesh, std::size_t vertex_count, const std::vector<bool>& test,
+               std::span<const std::uint8_t> ghost_sizes, const PointSet& touching);
 
+    /// The tested groups without ghosts, which come first.
+    std::size_t own() const { return own_; }
     std::size_t tested() const { return tested_; }
     std::size_t count() const { return first_cell_.size() - 1; }
 
@@ -58,7 +63,8 @@ private:
     void list_vertices();
     void list_groups(std::size_t vertex_count);
 
-    std::span<const Simplex<D>> all_cells_;
+    PartialMesh<D> mesh_;
+    std::size_t own_ = 0;
     std::size_t tested_ = 0;
     Array<Index> first_cell_;
     Array<std::size_t> cells_before_;

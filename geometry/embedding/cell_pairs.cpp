@@ -61,7 +61,7 @@ bool degenerate(const std::array<Point<4>, 4>& tetrahedron) {
 }
 
 template<int D>
-Point<D + 1> scale_of_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
+Point<D + 1> scale_of_cells(const JoinedSpans<Point<D + 1>>& points, std::span<const Simplex<D>> cells) {
     constexpr std::size_t samples = 10000; // however large the mesh
     const std::size_t stride = std::max<std::size_t>(1, cells.size() / samples);
     Point<D + 1> sum{};
@@ -95,8 +95,8 @@ FacetPair<D + 1> CellPairs<D>::pair_of(Index first, Index second) const {
             ++pair.shared;
         }
     }
-    pair.f = corners_of<D, D + 1>(f, points_);
-    pair.g = corners_of<D, D + 1>(g, points_);
+    pair.f = corners_among<D>(f, points_);
+    pair.g = corners_among<D>(g, points_);
     return pair;
 }
 
@@ -111,8 +111,8 @@ void CellPairs<D>::decide(Index first, Index second, PairTally<D>& tally) const 
     }
 }
 
-template Point<3> scale_of_cells<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
-template Point<4> scale_of_cells<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
+template Point<3> scale_of_cells<2>(const JoinedSpans<Point<3>>&, std::span<const Simplex<2>>);
+template Point<4> scale_of_cells<3>(const JoinedSpans<Point<4>>&, std::span<const Simplex<3>>);
 template class CellPairs<2>;
 template class CellPairs<3>;
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/joined_spans.h"
 #include "geometry/embedding/box_tree.h"
 #include "geometry/embedding/facet_pair.h"
 
 #include "slabhull/core/point.h"
 #include "slabhull/geometry/embedding.h"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -18,7 +20,17 @@ bool degenerate(const std::array<Point<3>, 3>& triangle);
 bool degenerate(const std::array<Point<4>, 4>& tetrahedron);
 
 template<int D>
-Box<D + 1> box_of(const Simplex<D>& cell, std::span<const Point<D + 1>> points) {
+std::array<Point<D + 1>, D + 1> corners_among(const Simplex<D>& cell,
+                                              const JoinedSpans<Point<D + 1>>& points) {
+    std::array<Point<D + 1>, D + 1> corners;
+    for (std::size_t i = 0; i <= D; ++i) {
+        corners[i] = points[cell[i]];
+    }
+    return corners;
+}
+
+template<int D>
+Box<D + 1> box_of(const Simplex<D>& cell, const JoinedSpans<Point<D + 1>>& points) {
     Box<D + 1> box;
     for (const Index v : cell) {
         box.include(points[v]);
@@ -29,7 +41,7 @@ Box<D + 1> box_of(const Simplex<D>& cell, std::span<const Point<D + 1>> points) 
 /// The inverse of the cells' mean extent along each axis (sampled), rounded to a power of two: balances
 /// lengths and times. It affects the speed of a search, not its result.
 template<int D>
-Point<D + 1> scale_of_cells(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells);
+Point<D + 1> scale_of_cells(const JoinedSpans<Point<D + 1>>& points, std::span<const Simplex<D>> cells);
 
 /// The crossing cells found, and statistics.
 template<int D>
@@ -43,7 +55,7 @@ struct PairTally {
 template<int D>
 class CellPairs {
 public:
-    CellPairs(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+    CellPairs(const JoinedSpans<Point<D + 1>>& points, const JoinedSpans<Simplex<D>>& cells,
               const Point<D + 1>& scale)
         : points_{points}, cells_{cells}, scale_{scale} {}
 
@@ -54,8 +66,8 @@ public:
 private:
     FacetPair<D + 1> pair_of(Index first, Index second) const;
 
-    std::span<const Point<D + 1>> points_;
-    std::span<const Simplex<D>> cells_;
+    JoinedSpans<Point<D + 1>> points_;
+    JoinedSpans<Simplex<D>> cells_;
     Point<D + 1> scale_;
 };
 

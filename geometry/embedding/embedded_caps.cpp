@@ -122,7 +122,7 @@ bool cap_is_embedded(const CellsInCaps<D>& hull, CapOf cap, double time) {
 } // namespace
 
 template<int D>
-std::array<double, 2> time_span(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
+std::array<double, 2> time_span(const JoinedSpans<Point<D + 1>>& points, std::span<const Simplex<D>> cells) {
     std::array<double, 2> times{std::numeric_limits<double>::infinity(),
                                 -std::numeric_limits<double>::infinity()};
     for (const Simplex<D>& cell : cells) {
@@ -224,7 +224,7 @@ bool caps_are_embedded(std::span<const Point<D + 1>> points, std::span<const Sim
            cap_is_embedded<D>(hull, CapOf::last, times[1]);
 }
 
-template std::array<double, 2> time_span<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
+template std::array<double, 2> time_span<2>(const JoinedSpans<Point<3>>&, std::span<const Simplex<2>>);
 template std::vector<CapOf> find_caps<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
                                          const std::array<double, 2>&);
 template bool caps_are_embedded<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
@@ -236,7 +236,7 @@ template bool bound_a_domain<2>(Array<Facet<2>>, Array<Point<2>>, int);
 template std::vector<std::array<Index, 2>> edges_of<2>(std::span<const Facet<2>>);
 template bool side_keeps_to<2>(const CellsInCaps<2>&, double, std::span<const Index>,
                                std::span<const std::array<Index, 2>>);
-template std::array<double, 2> time_span<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
+template std::array<double, 2> time_span<3>(const JoinedSpans<Point<4>>&, std::span<const Simplex<3>>);
 template std::vector<CapOf> find_caps<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
                                          const std::array<double, 2>&);
 template bool caps_are_embedded<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,

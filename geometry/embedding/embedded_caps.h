@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/joined_spans.h"
 #include "slabhull/core/array.h"
 #include "slabhull/core/point.h"
 #include "slabhull/topology/adjacency.h"
@@ -16,7 +17,7 @@ enum class CapOf : unsigned char { none, first, last };
 
 /// The earliest and the latest time of cells.
 template<int D>
-std::array<double, 2> time_span(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells);
+std::array<double, 2> time_span(const JoinedSpans<Point<D + 1>>& points, std::span<const Simplex<D>> cells);
 
 /// The cap of each cell: all its vertices are at the earliest or at the latest time of the hull, `times`.
 template<int D>

@@ -31,8 +31,9 @@ template<int D>
 class EmbeddingSearch {
 public:
     EmbeddingSearch(const GroupsToPair<D>& all, std::size_t limit)
-        : all_{all}, points_{all.points}, cells_{all.cells}, groups_{all.groups}, limit_{limit},
-          scale_{scale_of_cells<D>(points_, cells_)}, cell_pairs_{points_, cells_, scale_} {}
+        : all_{all}, points_{all.points}, cells_{all.mesh.own, all.mesh.ghosts}, groups_{all.groups},
+          limit_{limit}, scale_{scale_of_cells<D>(points_, all.mesh.own)}, cell_pairs_{points_, cells_,
+                                                                                       scale_} {}
 
     HullEmbedding<D> run() {
         prove_stars();
@@ -52,8 +53,8 @@ private:
         }
         std::erase_if(centres_, [&](Index v) { return !all_.is_complete(v); });
         std::vector<char> proven(centres_.size());
-        if (!all_.neighbors.empty()) {
-            proven = GroupStars<D>{points_, cells_, all_.neighbors, groups_, scale_}.prove(centres_);
+        if (!all_.mesh.own_neighbors.empty()) {
+            proven = GroupStars<D>{points_, all_.mesh, groups_, scale_}.prove(centres_);
         }
         for (std::size_t k = 0; k < centres_.size(); ++k) {
             if (proven[k] != 0) {
@@ -86,9 +87,9 @@ private:
         for (std::size_t g = 0; g < groups_.tested(); ++g) {
             for (std::size_t k = 0; k < groups_.cell_count(g) && !in_proven_star(g); ++k) {
                 const auto c = static_cast<Index>(groups_.first_cell(g) + k);
-                if (degenerate(corners_of<D, D + 1>(cells_[c], points_))) {
+                if (degenerate(corners_among<D>(cells_[c], points_))) {
                     degenerate_.push_back(c);
-                    if (g < all_.own_groups) {
+                    if (g < groups_.own()) {
                         result_.crossings.push_back({c, c, points_[cells_[c][0]]});
                     }
                 }
@@ -138,7 +139,7 @@ private:
     }
 
     /// Whether this search decides a pair, of which the first is the lower one.
-    bool is_own(Index first) const { return first < all_.own_groups; }
+    bool is_own(Index first) const { return first < groups_.own(); }
 
     /// Whether two groups are in no common proven star, and `centre` is that of their first common star.
     bool is_due(Index first, Index second, Index centre) const {
@@ -246,8 +247,8 @@ private:
     }
 
     const GroupsToPair<D>& all_;
-    std::span<const Point<D + 1>> points_;
-    std::span<const Simplex<D>> cells_;
+    JoinedSpans<Point<D + 1>> points_;
+    JoinedSpans<Simplex<D>> cells_;
     const CellGroups<D>& groups_;
     std::size_t limit_;
     Point<D + 1> scale_;

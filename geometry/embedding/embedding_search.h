@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/joined_spans.h"
 #include "geometry/embedding/cell_groups.h"
 
 #include "slabhull/core/array.h"
@@ -9,7 +10,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <span>
 
 namespace slabhull {
 
@@ -20,16 +20,14 @@ enum class StarState : char {
     proven ///< all its cells meet in common faces only
 };
 
-/// Groups of cells that are to be paired with each other.
+/// Groups of cells that are to be paired with each other, but for those of ghosts alone: another search has
+/// these.
 template<int D>
 struct GroupsToPair {
-    std::span<const Point<D + 1>> points;
-    std::span<const Simplex<D>> cells;
-    /// Of a closed and oriented complex, no_index for cells that are not here. Without it, stars stay open.
-    std::span<const Neighbors<D>> neighbors;
+    JoinedSpans<Point<D + 1>> points;
+    /// Of a closed and oriented complex, with neighbours; without these, stars stay open.
+    PartialMesh<D> mesh;
     const CellGroups<D>& groups;
-    /// Pairs of groups after these are left out, and crossings within them: another search has them.
-    std::size_t own_groups;
     /// Whether all cells at a vertex are here, with the whole groups of those tested.
     std::function<bool(Index vertex)> is_complete;
     /// Called with the states of all vertices when stars have been examined: more may be known to be proven.

@@ -164,7 +164,7 @@ private:
 } // namespace
 
 template<int N>
-void VertexCloud<N>::assign(std::span<const Index> vertices, std::span<const Point<N>> all,
+void VertexCloud<N>::assign(std::span<const Index> vertices, const JoinedSpans<Point<N>>& all,
                             const Point<N>& scale) {
     size = vertices.size();
     mean = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/joined_spans.h"
 #include "slabhull/core/point.h"
 
 #include <array>
@@ -20,7 +21,7 @@ struct VertexCloud {
     bool in_range = true; ///< coordinates are small enough that sums cannot overflow
 
     /// `scale`: powers of two by which coordinates are multiplied.
-    void assign(std::span<const Index> vertices, std::span<const Point<N>> all, const Point<N>& scale);
+    void assign(std::span<const Index> vertices, const JoinedSpans<Point<N>>& all, const Point<N>& scale);
 };
 
 /// Whether the convex hulls of two clouds are proven apart: a hyperplane separates them strictly, rounding

@@ -2,6 +2,7 @@
 #include "geometry/embedding/group_stars.h"
 
 #include "core/pieces.h"
+#include "geometry/embedding/cell_pairs.h"
 #include "geometry/embedding/rounding.h"
 
 #include "slabhull/core/parallel.h"
@@ -140,13 +141,13 @@ private:
 
     /// Facets at v are never in the border: all cells at v are here.
     bool sees_border(std::size_t cell, unsigned outer, const Corners& corners) {
-        const Simplex<D>& vertices = s_.cells_[cell];
+        const Simplex<D>& vertices = s_.mesh_.cell(static_cast<Index>(cell));
         const auto own = std::find(vertices.begin(), vertices.end(), v_) - vertices.begin();
         if (own <= D) {
             outer &= 1u << own;
         }
         for (std::size_t i = 0; i <= D; ++i) {
-            if ((outer >> i & 1u) == 0 || is_here(s_.neighbors_[cell][i])) {
+            if ((outer >> i & 1u) == 0 || is_here(s_.mesh_.neighbor(static_cast<Index>(cell), i))) {
                 continue;
             }
             Corners seen = corners;
@@ -308,10 +309,9 @@ private:
 };
 
 template<int D>
-GroupStars<D>::GroupStars(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-                          std::span<const Neighbors<D>> neighbors, const CellGroups<D>& groups,
-                          const Point<D + 1>& scale)
-    : points_{points}, cells_{cells}, neighbors_{neighbors}, groups_{groups}, scale_{scale} {
+GroupStars<D>::GroupStars(const JoinedSpans<Point<D + 1>>& points, const PartialMesh<D>& mesh,
+                          const CellGroups<D>& groups, const Point<D + 1>& scale)
+    : points_{points}, mesh_{mesh}, groups_{groups}, scale_{scale} {
     local_.resize(groups.cells_before(groups.count()));
     normals_.resize(groups.count());
     parallel_for(groups.count(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -331,9 +331,10 @@ void GroupStars<D>::list_cells(std::size_t group) {
         LocalCell& local = local_[groups_.cells_before(group) + k];
         local.outer = 0;
         for (std::size_t i = 0; i <= D; ++i) {
-            const auto place = std::find(vertices.begin(), vertices.end(), cells_[first + k][i]);
+            const auto place =
+                std::find(vertices.begin(), vertices.end(), mesh_.cell(static_cast<Index>(first + k))[i]);
             local.corner[i] = static_cast<std::uint8_t>(place - vertices.begin());
-            const bool outer = neighbors_[first + k][i] - first >= count;
+            const bool outer = mesh_.neighbor(static_cast<Index>(first + k), i) - first >= count;
             local.outer = static_cast<std::uint8_t>(local.outer | unsigned{outer} << i);
         }
     }
@@ -341,7 +342,7 @@ void GroupStars<D>::list_cells(std::size_t group) {
 
 template<int D>
 Point<D + 1> GroupStars<D>::scaled_normal(std::size_t cell) const {
-    auto corners = corners_of<D, D + 1>(cells_[cell], points_);
+    auto corners = corners_among<D>(mesh_.cell(static_cast<Index>(cell)), points_);
     for (auto& corner : corners) {
         for (std::size_t k = 0; k <= D; ++k) {
             corner[k] *= scale_[k];

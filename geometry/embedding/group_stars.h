@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/joined_spans.h"
 #include "geometry/embedding/cell_groups.h"
 
 #include "slabhull/core/array.h"
@@ -43,11 +44,10 @@ namespace slabhull {
 template<int D>
 class GroupStars {
 public:
-    /// Needs: `neighbors` of all cells, correct, each facet in two cells that agree. `scale`: see
+    /// Needs: neighbours of all cells, correct, each facet in two cells that agree. `scale`: see
     /// scale_of_cells().
-    GroupStars(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-               std::span<const Neighbors<D>> neighbors, const CellGroups<D>& groups,
-               const Point<D + 1>& scale);
+    GroupStars(const JoinedSpans<Point<D + 1>>& points, const PartialMesh<D>& mesh,
+               const CellGroups<D>& groups, const Point<D + 1>& scale);
 
     /// For each vertex of `vertices`: whether its groups together are proven embedded.
     std::vector<char> prove(std::span<const Index> vertices) const;
@@ -66,9 +66,8 @@ private:
     Point<D + 1> scaled_normal(std::size_t cell) const;
     std::array<float, D + 1> group_normal(std::size_t group) const;
 
-    std::span<const Point<D + 1>> points_;
-    std::span<const Simplex<D>> cells_;
-    std::span<const Neighbors<D>> neighbors_;
+    JoinedSpans<Point<D + 1>> points_;
+    PartialMesh<D> mesh_;
     const CellGroups<D>& groups_;
     Point<D + 1> scale_;
     Array<LocalCell> local_;

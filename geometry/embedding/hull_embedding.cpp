@@ -25,8 +25,11 @@ HullEmbedding<D> examine_embedding(std::span<const Point<D + 1>> points, std::sp
     const CellGroups<D> groups{cells, points.size(), tested};
     const std::span<const Neighbors<D>> neighbors =
         adjacency.defects.empty() ? adjacency.neighbors : std::span<const Neighbors<D>>{};
-    HullEmbedding<D> result = search_crossings<D>({points, cells, neighbors, groups, groups.tested(),
-                                                   [](Index) { return true; }, [](Array<StarState>&) {}},
+    HullEmbedding<D> result = search_crossings<D>({points,
+                                                   {cells, neighbors, {}, {}, {}, {}},
+                                                   groups,
+                                                   [](Index) { return true; },
+                                                   [](Array<StarState>&) {}},
                                                   limit);
     result.caps_proven = caps_proven;
     result.tested_cells = static_cast<std::size_t>(std::count(tested.begin(), tested.end(), true));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/check/part_embedding.h"
 
+#include "core/joined_spans.h"
 #include "core/pieces.h"
 #include "geometry/embedding/box_tree.h"
 #include "geometry/embedding/cell_groups.h"
@@ -164,59 +165,45 @@ struct SentCells {
     Array<SentPoint<D>> points;
 };
 
-/// The cells of one rank's search: its own tested cells, those of later ranks that may meet them, then cells
-/// that are not tested but touch these.
+/// What one rank's search needs beside its part: the tested cells of later ranks that may meet its own, and
+/// cells that are not tested but touch these.
 template<int D>
-struct CellsOfSearch {
-    Array<Point<D + 1>> points; ///< the part's, then others
-    Array<Simplex<D>> cells;
+struct GhostsOfSearch {
+    Array<std::uint8_t> sizes; ///< of the groups of tested ghosts, which come first
+    Array<Simplex<D>> cells;   ///< in the part's points, then `points`
     Array<Neighbors<D>> neighbors;
-    Array<std::uint8_t> sizes; ///< of the groups of tested cells
-    std::size_t own_groups = 0;
-    std::size_t own_cells = 0;   ///< tested ones
-    Array<std::uint64_t> others; ///< numbers in the hull of points that are not the part's
+    Array<Index> outside;         ///< what the cells of HullPart::outside are here
+    Array<Point<D + 1>> points;   ///< that are not the part's
+    Array<std::uint64_t> numbers; ///< of these points in the hull
 };
 
 /// Brings together the cells that each rank's search needs.
 template<int D>
 class SearchAssembly {
 public:
-    SearchAssembly(const HullPart<D>& part, Communicator& ranks, std::vector<bool> tested)
-        : part_{part}, ranks_{ranks}, tested_{std::move(tested)}, own_{part.cells.size()},
-          touching_{part.cells.size()} {
-        for (std::size_t c = 0; c < tested_.size(); ++c) {
-            if (tested_[c]) {
-                own_.insert(c);
-            }
-        }
-        own_.count();
-        sizes_.reserve(own_.size() / 4);
-        for (const std::uint8_t size : group_sizes<D>(part.cells, tested_)) {
-            if (size > 0) {
-                sizes_.push_back(size);
-            }
-        }
-        owners_ = lowest_at_points<std::int32_t>(part, ranks, ranks_of_tested_points());
-    }
+    SearchAssembly(const HullPart<D>& part, Communicator& ranks, const std::vector<bool>& tested)
+        : part_{part}, ranks_{ranks}, tested_{tested}, touching_{part.cells.size()},
+          sizes_{group_sizes<D>(part.cells, tested)}, owners_{lowest_at_points<std::int32_t>(
+                                                          part, ranks, ranks_of_tested_points())} {}
 
     /// The lowest rank that has a tested cell at each point; no_rank where none has.
     const Array<std::int32_t>& owners() const { return owners_; }
+    /// The part's cells that are not tested, but complete a star of this rank's.
+    const PointSet& touching() const { return touching_; }
 
-    CellsOfSearch<D> run() {
-        const SentCells<D> others = exchange();
-        CellsOfSearch<D> all;
-        all.own_groups = sizes_.size();
-        all.own_cells = own_.size();
-        all.sizes = std::move(sizes_);
-        all.sizes.insert(all.sizes.end(), others.sizes.begin(), others.sizes.end());
-        list_points(others, all);
-        list_cells(others, all);
-        return all;
+    GhostsOfSearch<D> run() {
+        SentCells<D> sent = exchange();
+        std::vector<std::uint8_t>{}.swap(sizes_);
+        GhostsOfSearch<D> ghosts;
+        ghosts.sizes = std::move(sent.sizes);
+        list_points(sent, ghosts);
+        list_cells(sent, ghosts);
+        return ghosts;
     }
 
     /// The hull's number of a tested cell that is here.
     std::uint64_t number_of(Index cell) const {
-        return cell < own_.size() ? part_.range.first + own_.member(cell) : tested_here_[cell - own_.size()];
+        return cell < part_.cells.size() ? part_.range.first + cell : tested_here_[cell - part_.cells.size()];
     }
 
 private:
@@ -233,26 +220,29 @@ private:
 
     // --- what is sent
 
-    /// Calls visit(first, count) for each group of own tested cells: which of these.
+    /// Calls visit(first, count) for the cells of each group of own tested cells.
     template<class Visit>
     void each_group(const Visit& visit) const {
-        std::size_t first = 0;
-        for (std::size_t g = 0; g < sizes_.size(); ++g) {
-            visit(g, first, std::size_t{sizes_[g]});
-            first += sizes_[g];
+        std::size_t c = 0;
+        for (const std::uint8_t size : sizes_) {
+            if (size > 0) {
+                visit(c, std::size_t{size});
+            }
+            c += std::max<std::size_t>(size, 1);
         }
+    }
+
+    Box<D + 1> group_box(std::size_t first, std::size_t count) const {
+        Box<D + 1> box;
+        for (std::size_t c = first; c < first + count; ++c) {
+            box.include(box_of<D>(part_.cells[c], part_.points));
+        }
+        return box;
     }
 
     Array<Box<D + 1>> group_boxes() const {
         Array<Box<D + 1>> boxes;
-        boxes.assign(sizes_.size(), Box<D + 1>{});
-        std::size_t cell = own_.size() > 0 ? own_.member(0) : 0;
-        each_group([&](std::size_t g, std::size_t first, std::size_t count) {
-            for (std::size_t k = first; k < first + count; ++k) {
-                boxes[g].include(box_of<D>(part_.cells[cell], part_.points));
-                cell = k + 1 < own_.size() ? own_.next(cell) : cell;
-            }
-        });
+        each_group([&](std::size_t first, std::size_t count) { boxes.push_back(group_box(first, count)); });
         return boxes;
     }
 
@@ -286,8 +276,7 @@ private:
     /// Groups go to the earlier ranks near whose cells they are.
     void list_groups_for_others(std::vector<SentCells<D>>& to) const {
         constexpr std::size_t most_boxes = 1 << 13; // of each rank: half a megabyte
-        const Array<Box<D + 1>> boxes = group_boxes();
-        const auto near = ranks_.all_gather<Box<D + 1>>(BoxTree<D + 1>{boxes}.at_most(most_boxes));
+        const auto near = ranks_.all_gather<Box<D + 1>>(BoxTree<D + 1>{group_boxes()}.at_most(most_boxes));
         Array<Box<D + 1>> earlier;
         std::vector<std::size_t> rank_of;
         for (std::size_t r = 0; r < static_cast<std::size_t>(ranks_.rank()); ++r) {
@@ -296,14 +285,14 @@ private:
         }
         const BoxTree<D + 1> tree{earlier};
         std::vector<std::size_t> targets;
-        each_group([&](std::size_t g, std::size_t first, std::size_t count) {
+        each_group([&](std::size_t first, std::size_t count) {
             targets.clear();
-            tree.find(boxes[g], [&](Index box) { targets.push_back(rank_of[box]); });
+            tree.find(group_box(first, count), [&](Index box) { targets.push_back(rank_of[box]); });
             sort_out(targets);
             for (const std::size_t r : targets) {
-                to[r].sizes.push_back(sizes_[g]);
-                for (std::size_t k = first; k < first + count; ++k) {
-                    to[r].tested.push_back(as_sent(own_.member(k)));
+                to[r].sizes.push_back(static_cast<std::uint8_t>(count));
+                for (std::size_t c = first; c < first + count; ++c) {
+                    to[r].tested.push_back(as_sent(c));
                 }
             }
         });
@@ -358,96 +347,80 @@ private:
 
     // --- what is here
 
-    void list_points(const SentCells<D>& others, CellsOfSearch<D>& all) {
-        for (const SentPoint<D>& point : others.points) {
+    void list_points(const SentCells<D>& sent, GhostsOfSearch<D>& ghosts) const {
+        for (const SentPoint<D>& point : sent.points) {
             if (!part_.points_used->contains(point.number)) {
-                all.others.push_back(point.number);
+                ghosts.numbers.push_back(point.number);
             }
         }
-        sort_out(all.others);
-        all.points.resize(part_.points.size() + all.others.size());
-        std::copy(part_.points.begin(), part_.points.end(), all.points.begin());
-        for (const SentPoint<D>& point : others.points) {
-            all.points[point_here(point.number, all)] = point.place;
+        sort_out(ghosts.numbers);
+        ghosts.points.resize(ghosts.numbers.size());
+        for (const SentPoint<D>& point : sent.points) {
+            const Index here = point_here(point.number, ghosts);
+            if (here >= part_.points.size()) {
+                ghosts.points[here - part_.points.size()] = point.place;
+            }
         }
     }
 
-    Index point_here(std::uint64_t number, const CellsOfSearch<D>& all) const {
+    Index point_here(std::uint64_t number, const GhostsOfSearch<D>& ghosts) const {
         if (part_.points_used->contains(number)) {
             return static_cast<Index>(part_.points_used->rank(number));
         }
-        const auto place = std::lower_bound(all.others.begin(), all.others.end(), number);
-        return static_cast<Index>(part_.points.size() + static_cast<std::size_t>(place - all.others.begin()));
+        const auto place = std::lower_bound(ghosts.numbers.begin(), ghosts.numbers.end(), number);
+        return static_cast<Index>(part_.points.size() +
+                                  static_cast<std::size_t>(place - ghosts.numbers.begin()));
     }
 
-    void list_cells(const SentCells<D>& others, CellsOfSearch<D>& all) {
-        for (const SentCell<D>& cell : others.tested) {
+    void list_cells(const SentCells<D>& sent, GhostsOfSearch<D>& ghosts) {
+        for (const SentCell<D>& cell : sent.tested) {
             tested_here_.push_back(cell.number);
         }
-        for (const SentCell<D>& cell : others.touching) {
+        for (const SentCell<D>& cell : sent.touching) {
             touching_here_.push_back(cell.number);
         }
-        const std::size_t count =
-            own_.size() + others.tested.size() + touching_.size() + others.touching.size();
-        checked_index(count, "cells of a part");
-        all.cells.reserve(count);
-        all.neighbors.reserve(count);
-        add_own(own_, all);
-        add_received(others.tested, all);
-        add_own(touching_, all);
-        add_received(others.touching, all);
+        const std::size_t count = sent.tested.size() + sent.touching.size();
+        checked_index(part_.cells.size() + count, "cells of a part");
+        ghosts.cells.reserve(count);
+        ghosts.neighbors.reserve(count);
+        add(sent.tested, ghosts);
+        add(sent.touching, ghosts);
+        ghosts.outside.resize(part_.outside.size());
+        std::transform(part_.outside.begin(), part_.outside.end(), ghosts.outside.begin(),
+                       [&](std::uint64_t number) { return cell_here(number); });
     }
 
-    void add_own(const PointSet& which, CellsOfSearch<D>& all) const {
-        std::size_t c = which.size() > 0 ? which.member(0) : 0;
-        for (std::size_t k = 0; k < which.size(); ++k) {
-            all.cells.push_back(part_.cells[c]);
-            Neighbors<D>& row = all.neighbors.emplace_back();
-            for (std::size_t i = 0; i <= D; ++i) {
-                row[i] = cell_here(part_.in_hull(part_.neighbors[c][i]));
-            }
-            c = k + 1 < which.size() ? which.next(c) : c;
-        }
-    }
-
-    void add_received(const Array<SentCell<D>>& cells, CellsOfSearch<D>& all) const {
+    void add(const Array<SentCell<D>>& cells, GhostsOfSearch<D>& ghosts) const {
         for (const SentCell<D>& sent : cells) {
-            Simplex<D>& cell = all.cells.emplace_back();
-            Neighbors<D>& row = all.neighbors.emplace_back();
+            Simplex<D>& cell = ghosts.cells.emplace_back();
+            Neighbors<D>& row = ghosts.neighbors.emplace_back();
             for (std::size_t i = 0; i <= D; ++i) {
-                cell[i] = point_here(sent.vertices[i], all);
+                cell[i] = point_here(sent.vertices[i], ghosts);
                 row[i] = cell_here(sent.neighbors[i]);
             }
         }
     }
 
     Index cell_here(std::uint64_t number) const {
-        const std::size_t c = number - part_.range.first;
-        std::size_t before = 0;
-        if (c < part_.range.count) {
-            if (own_.contains(c)) {
-                return static_cast<Index>(own_.rank(c));
-            }
-            before = own_.size() + tested_here_.size();
-            return touching_.contains(c) ? static_cast<Index>(before + touching_.rank(c)) : no_index;
+        if (number - part_.range.first < part_.range.count) {
+            return static_cast<Index>(number - part_.range.first);
         }
-        before = own_.size();
+        std::size_t before = part_.cells.size();
         for (const Array<std::uint64_t>* list : {&tested_here_, &touching_here_}) {
             const auto place = std::lower_bound(list->begin(), list->end(), number);
             if (place != list->end() && *place == number) {
                 return static_cast<Index>(before + static_cast<std::size_t>(place - list->begin()));
             }
-            before += tested_here_.size() + touching_.size();
+            before += list->size();
         }
         return no_index;
     }
 
     const HullPart<D>& part_;
     Communicator& ranks_;
-    std::vector<bool> tested_;
-    PointSet own_;      ///< the part's cells that are tested, ...
-    PointSet touching_; ///< ... and those that are not, but complete a star
-    Array<std::uint8_t> sizes_;
+    const std::vector<bool>& tested_; ///< of each cell of the part
+    PointSet touching_;
+    std::vector<std::uint8_t> sizes_; ///< of groups of own cells, see group_sizes()
     Array<std::int32_t> owners_;
     Array<std::uint64_t> tested_here_;   ///< numbers in the hull of cells received, ascending
     Array<std::uint64_t> touching_here_; ///< the same
@@ -461,18 +434,20 @@ public:
 
     PartsEmbedding<D> run() {
         PartsEmbedding<D> result;
-        std::vector<bool> tested = select(result.all);
-        SearchAssembly<D> assembly{part_, ranks_, std::move(tested)};
-        const CellsOfSearch<D> here = assembly.run();
-        const CellGroups<D> groups{here.cells, here.points.size(), here.sizes};
+        const std::vector<bool> tested = select(result.all);
+        SearchAssembly<D> assembly{part_, ranks_, tested};
+        const GhostsOfSearch<D> ghosts = assembly.run();
+        const PartialMesh<D> mesh{part_.cells,  part_.neighbors,  ghosts.outside,
+                                  ghosts.cells, ghosts.neighbors, {}};
+        const JoinedSpans<Point<D + 1>> points{part_.points, ghosts.points};
+        const CellGroups<D> groups{mesh, points.size(), tested, ghosts.sizes, assembly.touching()};
         const auto is_complete = [&](Index v) {
             return v < part_.points.size() && assembly.owners()[v] == ranks_.rank();
         };
-        const HullEmbedding<D> own =
-            search_crossings<D>({here.points, here.cells, here.neighbors, groups, here.own_groups,
-                                 is_complete, [&](Array<StarState>& stars) { complete_stars_of(stars); }},
-                                limit_);
-        reduce(own, here, assembly, result);
+        const HullEmbedding<D> own = search_crossings<D>(
+            {points, mesh, groups, is_complete, [&](Array<StarState>& stars) { complete_stars_of(stars); }},
+            limit_);
+        reduce(own, mesh, points, assembly, result);
         return result;
     }
 
@@ -501,7 +476,8 @@ private:
         }
     }
 
-    void reduce(const HullEmbedding<D>& own, const CellsOfSearch<D>& here, const SearchAssembly<D>& assembly,
+    void reduce(const HullEmbedding<D>& own, const PartialMesh<D>& mesh,
+                const JoinedSpans<Point<D + 1>>& points, const SearchAssembly<D>& assembly,
                 PartsEmbedding<D>& result) const {
         HullEmbedding<D>& all = result.all;
         all.all_listed = ranks_.min(own.all_listed ? 1 : 0) == 1;
@@ -513,7 +489,7 @@ private:
         std::vector<CrossingInHull<D>> mine;
         for (const Crossing<D + 1>& crossing : own.crossings) {
             if (crossing.first != crossing.second) {
-                mine.push_back(in_hull(crossing, here, assembly));
+                mine.push_back(in_hull(crossing, mesh, points, assembly));
             }
         }
         const auto found = joined(ranks_.all_gather<CrossingInHull<D>>(mine));
@@ -527,13 +503,14 @@ private:
         }
     }
 
-    static CrossingInHull<D> in_hull(const Crossing<D + 1>& crossing, const CellsOfSearch<D>& here,
+    static CrossingInHull<D> in_hull(const Crossing<D + 1>& crossing, const PartialMesh<D>& mesh,
+                                     const JoinedSpans<Point<D + 1>>& points,
                                      const SearchAssembly<D>& assembly) {
         CrossingInHull<D> result{crossing, {}};
         std::array<std::pair<std::uint64_t, std::array<double, 2>>, 2> cells;
         for (std::size_t k = 0; k < 2; ++k) {
             const Index cell = k == 0 ? crossing.first : crossing.second;
-            cells[k] = {assembly.number_of(cell), time_span<D>(here.points, {&here.cells[cell], 1})};
+            cells[k] = {assembly.number_of(cell), time_span<D>(points, {&mesh.cell(cell), 1})};
         }
         std::sort(cells.begin(), cells.end());
         result.cells.first = static_cast<Index>(cells[0].first);
