@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/parallel_sort.h"
+#include "core/pieces.h"
+
 #include "slabhull/core/array.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/point.h"
@@ -187,8 +190,13 @@ template<class BoxOf>
 void BoxTree<D>::order_items(std::size_t count, const BoxOf& box_of) {
     constexpr std::size_t grain = 1 << 14;
     Box<D> all;
-    for (std::size_t k = 0; k < count; ++k) {
-        all.include(box_of(k));
+    const auto include = [&](std::size_t begin, std::size_t end, Box<D>& piece) {
+        for (std::size_t k = begin; k < end; ++k) {
+            piece.include(box_of(k));
+        }
+    };
+    for (const Box<D>& piece : parallel_pieces<Box<D>>(count, grain, include)) {
+        all.include(piece);
     }
     Array<std::pair<std::uint64_t, Index>> order(count);
     parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
@@ -196,7 +204,7 @@ void BoxTree<D>::order_items(std::size_t count, const BoxOf& box_of) {
             order[k] = {detail::tree_key(box_of(k), all), static_cast<Index>(k)};
         }
     });
-    std::sort(order.begin(), order.end());
+    parallel_sort(order);
     items_.resize(count);
     boxes_.resize(count);
     parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
@@ -212,9 +220,11 @@ void BoxTree<D>::build_levels() {
     const auto group = [](const Array<Box<D>>& parts, std::size_t width) {
         Array<Box<D>> nodes;
         nodes.assign(std::max<std::size_t>(1, (parts.size() + width - 1) / width), Box<D>{});
-        for (std::size_t k = 0; k < parts.size(); ++k) {
-            nodes[k / width].include(parts[k]);
-        }
+        parallel_for(parts.size(), width << 11, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                nodes[k / width].include(parts[k]);
+            }
+        });
         return nodes;
     };
     levels_.push_back(group(boxes_, block));

@@ -65,14 +65,14 @@ private:
 template<int D>
 class PrismFinder {
 public:
-    PrismFinder(std::span<const Simplex<D>> cells, const std::vector<bool>& test)
-        : cells_{cells}, test_{test} {}
+    PrismFinder(std::span<const Simplex<D>> cells, std::span<const CapOf> caps)
+        : cells_{cells}, caps_{caps} {}
 
     /// The number of cells of each group in order; zero for a cell that is not tested.
     std::vector<std::uint8_t> cut(std::size_t begin, std::size_t end) {
         std::vector<std::uint8_t> counts;
         for (std::size_t c = begin; c < end;) {
-            const std::size_t count = test_[c] ? prism_at(c, end) : 0;
+            const std::size_t count = caps_[c] == CapOf::none ? prism_at(c, end) : 0;
             counts.push_back(static_cast<std::uint8_t>(count));
             c += std::max<std::size_t>(count, 1);
         }
@@ -95,7 +95,7 @@ private:
     bool is_prism(const PrismKind& kind, std::size_t c, std::size_t end) const {
         VertexSet<D> vertices;
         for (std::size_t k = c; k < c + kind.cells; ++k) {
-            if (k >= end || !test_[k] || !vertices.add(cells_[k])) {
+            if (k >= end || caps_[k] != CapOf::none || !vertices.add(cells_[k])) {
                 return false;
             }
         }
@@ -103,7 +103,7 @@ private:
     }
 
     std::span<const Simplex<D>> cells_;
-    const std::vector<bool>& test_;
+    std::span<const CapOf> caps_;
     std::size_t last_ = 0;
 };
 
@@ -111,15 +111,41 @@ private:
 
 template<int D>
 CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
-                          const std::vector<bool>& test)
-    : all_cells_{cells} {
+                          std::span<const CapOf> caps)
+    : all_cells_{cells}, vertex_count_{vertex_count} {
     cells_before_.push_back(0);
-    find_prisms(test);
+    find_prisms(caps);
     tested_ = first_cell_.size();
-    add_touching(test);
     first_cell_.push_back(static_cast<Index>(cells.size())); // keeps count() simple
     list_vertices();
-    list_groups(vertex_count);
+    list_groups();
+}
+
+template<int D>
+void CellGroups<D>::complete(std::span<const Index> at_vertices, std::span<const CapOf> caps) {
+    std::vector<bool> wanted(vertex_count_);
+    for (const Index v : at_vertices) {
+        wanted[v] = true;
+    }
+    const auto find = [&](std::size_t begin, std::size_t end, std::vector<Index>& found) {
+        for (std::size_t c = begin; c < end; ++c) {
+            if (caps[c] != CapOf::none && std::any_of(all_cells_[c].begin(), all_cells_[c].end(),
+                                                      [&](Index v) { return wanted[v]; })) {
+                found.push_back(static_cast<Index>(c));
+            }
+        }
+    };
+    const std::vector<Index> found = parallel_gather<Index>(all_cells_.size(), grain, find);
+    if (found.empty()) {
+        return;
+    }
+    first_cell_.pop_back();
+    for (const Index c : found) {
+        add_group(c, 1);
+    }
+    first_cell_.push_back(static_cast<Index>(all_cells_.size()));
+    list_vertices();
+    list_groups();
 }
 
 template<int D>
@@ -129,11 +155,11 @@ void CellGroups<D>::add_group(std::size_t first, std::size_t count) {
 }
 
 template<int D>
-void CellGroups<D>::find_prisms(const std::vector<bool>& test) {
-    const auto start = static_cast<std::size_t>(std::find(test.begin(), test.end(), true) - test.begin());
-    const std::size_t all = test.size() - start;
+void CellGroups<D>::find_prisms(std::span<const CapOf> caps) {
+    const auto start = static_cast<std::size_t>(std::find(caps.begin(), caps.end(), CapOf::none) - caps.begin());
+    const std::size_t all = caps.size() - start;
     const auto cut = [&](std::size_t begin, std::size_t end, std::vector<std::uint8_t>& counts) {
-        counts = PrismFinder<D>{all_cells_, test}.cut(start + begin, start + end);
+        counts = PrismFinder<D>{all_cells_, caps}.cut(start + begin, start + end);
     };
     std::size_t c = start;
     for (const std::size_t count : parallel_gather<std::uint8_t>(all, grain, cut)) {
@@ -141,26 +167,6 @@ void CellGroups<D>::find_prisms(const std::vector<bool>& test) {
             add_group(c, count);
         }
         c += std::max<std::size_t>(count, 1);
-    }
-}
-
-template<int D>
-void CellGroups<D>::add_touching(const std::vector<bool>& test) {
-    std::vector<bool> touched;
-    for (std::size_t c = 0; c < all_cells_.size(); ++c) {
-        for (const Index v : all_cells_[c]) {
-            if (test[c]) {
-                touched.resize(std::max<std::size_t>(touched.size(), v + std::size_t{1}));
-                touched[v] = true;
-            }
-        }
-    }
-    for (std::size_t c = 0; c < all_cells_.size(); ++c) {
-        const auto& cell = all_cells_[c];
-        if (!test[c] && std::any_of(cell.begin(), cell.end(),
-                                    [&](Index v) { return v < touched.size() && touched[v]; })) {
-            add_group(c, 1);
-        }
     }
 }
 
@@ -193,12 +199,12 @@ void CellGroups<D>::list_vertices() {
 }
 
 template<int D>
-void CellGroups<D>::list_groups(std::size_t vertex_count) {
-    first_group_.assign(vertex_count + 1, 0);
+void CellGroups<D>::list_groups() {
+    first_group_.assign(vertex_count_ + 1, 0);
     for (const Index v : vertices_) {
         ++first_group_[v + std::size_t{1}];
     }
-    for (std::size_t v = 0; v < vertex_count; ++v) {
+    for (std::size_t v = 0; v < vertex_count_; ++v) {
         first_group_[v + 1] += first_group_[v];
     }
     groups_.resize(vertices_.size());
@@ -207,7 +213,7 @@ void CellGroups<D>::list_groups(std::size_t vertex_count) {
             groups_[first_group_[v]++] = static_cast<Index>(g);
         }
     }
-    for (std::size_t v = vertex_count; v > 0; --v) { // filling moved each start to its end
+    for (std::size_t v = vertex_count_; v > 0; --v) { // filling moved each start to its end
         first_group_[v] = first_group_[v - 1];
     }
     first_group_[0] = 0;

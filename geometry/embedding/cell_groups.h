@@ -17,15 +17,19 @@ namespace slabhull {
 /// Groups of consecutive cells of a hull: the simplices of a prism if they are consecutive, as in hulls made
 /// by this library and in files of them, else single cells. The grouping affects speed only.
 ///
-/// The first `tested` groups hold the cells to be tested. The other cells that share a vertex with these
-/// follow, one per group.
+/// The first `tested` groups hold the cells to be tested. Others that complete() adds follow, one cell per
+/// group.
 template<int D>
 class CellGroups {
 public:
     static constexpr std::size_t most_cells = D == 2 ? 4 : 14;
 
-    /// `test`: one flag per cell.
-    CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, const std::vector<bool>& test);
+    /// `caps`: of each cell; those in no cap are tested.
+    CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, std::span<const CapOf> caps);
+
+    /// Adds the cells in caps that are at one of these vertices, so that groups_of() these has all their cells.
+    /// To be called once.
+    void complete(std::span<const Index> at_vertices, std::span<const CapOf> caps);
 
     std::size_t tested() const { return tested_; }
     std::size_t count() const { return first_cell_.size() - 1; }
@@ -40,20 +44,20 @@ public:
     std::span<const Index> vertices(std::size_t group) const {
         return {vertices_.data() + first_vertex_[group], first_vertex_[group + 1] - first_vertex_[group]};
     }
-    /// The groups at the vertex, ascending.
+    /// The groups at the vertex, ascending. All cells there are in one only after complete().
     std::span<const Index> groups_of(Index vertex) const {
         return {groups_.data() + first_group_[vertex], first_group_[vertex + 1] - first_group_[vertex]};
     }
     std::span<const Index> tested_groups_of(Index vertex) const;
 
 private:
-    void find_prisms(const std::vector<bool>& test);
-    void add_touching(const std::vector<bool>& test);
+    void find_prisms(std::span<const CapOf> caps);
     void add_group(std::size_t first, std::size_t count);
     void list_vertices();
-    void list_groups(std::size_t vertex_count);
+    void list_groups();
 
     std::span<const Simplex<D>> all_cells_;
+    std::size_t vertex_count_;
     std::size_t tested_ = 0;
     Array<Index> first_cell_;
     Array<std::size_t> cells_before_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/embedding/embedded_caps.h"
 
+#include "core/pieces.h"
 #include "geometry/basics/predicates.h"
 
 #include "slabhull/core/error.h"
@@ -17,6 +18,27 @@
 namespace slabhull {
 
 namespace {
+
+constexpr std::size_t cap_grain = 1 << 14; ///< cells
+
+/// The earliest and the latest time of the cells' vertices.
+template<int D>
+std::array<double, 2> time_range(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
+    using Range = std::array<double, 2>;
+    constexpr Range none{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    const auto range_of = [&](std::size_t begin, std::size_t end, Range& range) {
+        for (std::size_t c = begin; c < end; ++c) {
+            for (const Index v : cells[c]) {
+                range = {std::min(range[0], points[v][D]), std::max(range[1], points[v][D])};
+            }
+        }
+    };
+    Range all = none;
+    for (const Range& piece : parallel_pieces<Range>(cells.size(), cap_grain, range_of, none)) {
+        all = {std::min(all[0], piece[0]), std::max(all[1], piece[1])};
+    }
+    return all;
+}
 
 template<int D>
 Point<D> in_space(const Point<D + 1>& p) {
@@ -43,7 +65,7 @@ private:
         std::atomic<bool> positive = false;
         std::atomic<bool> negative = false;
         std::atomic<bool> flat = false;
-        parallel_for(cells_.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        parallel_for(cells_.size(), cap_grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
                 if (caps_[c] == cap) {
                     const int sign = sign_of(cells_[c]);
@@ -70,16 +92,8 @@ private:
     bool bounds_domain(CapOf cap, int sign) {
         Surface<D> surface;
         on_boundary_.assign(points_.size(), no_index);
-        for (std::size_t c = 0; c < cells_.size(); ++c) {
-            for (std::size_t i = 0; i <= D && caps_[c] == cap; ++i) {
-                if (outer(c, i, cap)) {
-                    Facet<D> facet = outward_facet<D>(cells_[c], static_cast<int>(i));
-                    if (sign < 0) {
-                        std::swap(facet[0], facet[1]);
-                    }
-                    surface.facets.push_back(numbered(facet, surface));
-                }
-            }
+        for (const Facet<D>& facet : outer_facets(cap, sign)) {
+            surface.facets.push_back(numbered(facet, surface));
         }
         find_edges(surface);
         try { // the reasons are not needed: the pairs of cells will be reported
@@ -88,6 +102,22 @@ private:
         } catch (const GeometryError&) {
             return false;
         }
+    }
+
+    std::vector<Facet<D>> outer_facets(CapOf cap, int sign) const {
+        const auto find = [&](std::size_t begin, std::size_t end, std::vector<Facet<D>>& facets) {
+            for (std::size_t c = begin; c < end; ++c) {
+                for (std::size_t i = 0; i <= D && caps_[c] == cap; ++i) {
+                    if (outer(c, i, cap)) {
+                        facets.push_back(outward_facet<D>(cells_[c], static_cast<int>(i)));
+                        if (sign < 0) {
+                            std::swap(facets.back()[0], facets.back()[1]);
+                        }
+                    }
+                }
+            }
+        };
+        return parallel_gather<Facet<D>>(cells_.size(), cap_grain, find);
     }
 
     Facet<D> numbered(Facet<D> facet, Surface<D>& surface) {
@@ -120,7 +150,7 @@ private:
     bool side_keeps_to_boundary(CapOf cap) const {
         const double time = time_of(cap);
         std::atomic<bool> all = true;
-        parallel_for(cells_.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        parallel_for(cells_.size(), cap_grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
                 if (caps_[c] == CapOf::none && !face_on_boundary(c, time)) {
                     all = false;
@@ -169,22 +199,17 @@ private:
 
 template<int D>
 std::vector<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
-    double first = std::numeric_limits<double>::infinity();
-    double last = -first;
-    for (const Simplex<D>& cell : cells) {
-        for (const Index v : cell) {
-            first = std::min(first, points[v][D]);
-            last = std::max(last, points[v][D]);
-        }
-    }
+    const std::array<double, 2> times = time_range<D>(points, cells);
     std::vector<CapOf> caps(cells.size(), CapOf::none);
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        const auto all_at = [&](double time) {
-            return std::all_of(cells[c].begin(), cells[c].end(),
-                               [&](Index v) { return points[v][D] == time; });
-        };
-        caps[c] = all_at(first) ? CapOf::first : all_at(last) ? CapOf::last : CapOf::none;
-    }
+    parallel_for(cells.size(), cap_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            const auto all_at = [&](double time) {
+                return std::all_of(cells[c].begin(), cells[c].end(),
+                                   [&](Index v) { return points[v][D] == time; });
+            };
+            caps[c] = all_at(times[0]) ? CapOf::first : all_at(times[1]) ? CapOf::last : CapOf::none;
+        }
+    });
     return caps;
 }
 

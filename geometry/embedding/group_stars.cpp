@@ -387,9 +387,6 @@ namespace {
 template<int D>
 bool is_covered(const CellGroups<D>& groups, Index v) {
     const auto own = groups.tested_groups_of(v);
-    if (own.size() > 2) {
-        return false; // rare, and not worth the search
-    }
     const auto around = groups.vertices(own.front());
     return std::any_of(around.begin(), around.end(), [&](Index w) {
         const auto other = groups.tested_groups_of(w);

@@ -36,7 +36,7 @@ public:
                     const AdjacencyView<D>& adjacency, std::size_t limit)
         : points_{points}, cells_{cells}, adjacency_{adjacency}, limit_{limit}, scale_{scale_of_cells<D>(
                                                                                     points, cells)},
-          cell_pairs_{points, cells, scale_}, groups_{cells, points.size(), select()} {}
+          cell_pairs_{points, cells, scale_}, caps_{unproven_to_none()}, groups_{cells, points.size(), caps_} {}
 
     HullEmbedding<D> run() {
         prove_stars();
@@ -53,19 +53,22 @@ private:
         return adjacency_.defects.empty() ? adjacency_.neighbors : std::span<const Neighbors<D>>{};
     }
 
-    std::vector<bool> select() {
-        const std::vector<CapOf> caps = find_caps<D>(points_, cells_);
+    /// The cap of each cell, if both are proven to be embedded; else all cells are taken for the side's, so
+    /// that they are tested.
+    std::vector<CapOf> unproven_to_none() {
+        std::vector<CapOf> caps = find_caps<D>(points_, cells_);
         result_.caps_proven = caps_are_embedded<D>(points_, cells_, adjacency_, caps);
-        std::vector<bool> selected(cells_.size());
-        for (std::size_t c = 0; c < cells_.size(); ++c) {
-            selected[c] = !result_.caps_proven || caps[c] == CapOf::none;
-            result_.tested_cells += selected[c];
+        if (!result_.caps_proven) {
+            std::fill(caps.begin(), caps.end(), CapOf::none);
         }
-        return selected;
+        result_.tested_cells = static_cast<std::size_t>(std::count(caps.begin(), caps.end(), CapOf::none));
+        return caps;
     }
 
     void prove_stars() {
         centres_ = star_centres<D>(groups_, points_.size());
+        groups_.complete(centres_, caps_);
+        caps_ = {};
         star_of_.assign(points_.size(), Star::none);
         std::vector<char> proven(centres_.size());
         if (!neighbors().empty()) {
@@ -87,14 +90,20 @@ private:
 
     /// Finds cells without extent, which are not paired but reported. Proven stars have none.
     void find_degenerate() {
-        for (std::size_t g = 0; g < groups_.tested(); ++g) {
-            for (std::size_t k = 0; k < groups_.cell_count(g) && !in_proven_star(g); ++k) {
-                const auto c = static_cast<Index>(groups_.first_cell(g) + k);
-                if (degenerate(corners_of<D, D + 1>(cells_[c], points_))) {
-                    result_.crossings.push_back({c, c, points_[cells_[c][0]]});
-                    degenerate_.push_back(c);
+        const auto find = [&](std::size_t begin, std::size_t end, std::vector<Index>& found) {
+            for (std::size_t g = begin; g < end; ++g) {
+                const std::size_t cells = in_proven_star(g) ? 0 : groups_.cell_count(g);
+                for (std::size_t k = 0; k < cells; ++k) {
+                    const auto c = static_cast<Index>(groups_.first_cell(g) + k);
+                    if (degenerate(corners_of<D, D + 1>(cells_[c], points_))) {
+                        found.push_back(c);
+                    }
                 }
             }
+        };
+        degenerate_ = parallel_gather<Index>(groups_.tested(), 1 << 12, find);
+        for (const Index c : degenerate_) {
+            result_.crossings.push_back({c, c, points_[cells_[c][0]]});
         }
         std::sort(degenerate_.begin(), degenerate_.end());
     }
@@ -252,6 +261,7 @@ private:
     Point<D + 1> scale_;
     CellPairs<D> cell_pairs_;
     HullEmbedding<D> result_;
+    std::vector<CapOf> caps_; ///< until the groups are complete
     CellGroups<D> groups_;
     std::vector<Index> centres_; ///< centres of stars; later only of those not proven
     Array<Star> star_of_;        ///< by vertex
