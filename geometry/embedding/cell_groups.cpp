@@ -22,7 +22,6 @@ template<>
 constexpr auto prism_kinds<3> = std::array<PrismKind, 5>{{{14, 10}, {12, 9}, {10, 9}, {6, 7}, {3, 6}}};
 
 constexpr std::size_t grain = 16'800; ///< cells; whole prisms of each kind
-constexpr std::size_t group_grain = 4096;
 
 /// Distinct vertices, ascending, at most as many as a prism has.
 template<int D>
@@ -57,8 +56,15 @@ private:
         return true;
     }
 
-    std::array<Index, most> vertices_;
+    std::array<Index, most> vertices_{};
     std::size_t size_ = 0;
+};
+
+/// The groups of a range of cells, in order.
+struct GroupsOfPiece {
+    std::vector<std::uint8_t> cells;         ///< of each group; zero for a cell that is not tested
+    std::vector<std::uint8_t> vertex_counts; ///< of those that are not zero
+    std::vector<Index> vertices;
 };
 
 /// Cuts a range of cells into prisms, and into single cells where there are none.
@@ -68,19 +74,23 @@ public:
     PrismFinder(std::span<const Simplex<D>> cells, std::span<const CapOf> caps)
         : cells_{cells}, caps_{caps} {}
 
-    /// The number of cells of each group in order; zero for a cell that is not tested.
-    std::vector<std::uint8_t> cut(std::size_t begin, std::size_t end) {
-        std::vector<std::uint8_t> counts;
+    GroupsOfPiece cut(std::size_t begin, std::size_t end) {
+        GroupsOfPiece groups;
         for (std::size_t c = begin; c < end;) {
             const std::size_t count = caps_[c] == CapOf::none ? prism_at(c, end) : 0;
-            counts.push_back(static_cast<std::uint8_t>(count));
+            groups.cells.push_back(static_cast<std::uint8_t>(count));
+            if (count > 0) {
+                groups.vertex_counts.push_back(static_cast<std::uint8_t>(vertices_.size()));
+                groups.vertices.insert(groups.vertices.end(), vertices_.begin(), vertices_.end());
+            }
             c += std::max<std::size_t>(count, 1);
         }
-        return counts;
+        return groups;
     }
 
 private:
-    /// Starts with the kind found last, since prisms of one kind follow each other.
+    /// The number of cells of the prism there, or 1; leaves their vertices. Starts with the kind found last, since
+    /// prisms of one kind follow each other.
     std::size_t prism_at(std::size_t c, std::size_t end) {
         for (std::size_t turn = 0; turn < prism_kinds<D>.size(); ++turn) {
             const std::size_t kind = (last_ + turn) % prism_kinds<D>.size();
@@ -89,21 +99,24 @@ private:
                 return prism_kinds<D>[kind].cells;
             }
         }
+        vertices_ = {};
+        vertices_.add(cells_[c]);
         return 1;
     }
 
-    bool is_prism(const PrismKind& kind, std::size_t c, std::size_t end) const {
-        VertexSet<D> vertices;
+    bool is_prism(const PrismKind& kind, std::size_t c, std::size_t end) {
+        vertices_ = {};
         for (std::size_t k = c; k < c + kind.cells; ++k) {
-            if (k >= end || caps_[k] != CapOf::none || !vertices.add(cells_[k])) {
+            if (k >= end || caps_[k] != CapOf::none || !vertices_.add(cells_[k])) {
                 return false;
             }
         }
-        return vertices.size() == kind.vertices;
+        return vertices_.size() == kind.vertices;
     }
 
     std::span<const Simplex<D>> cells_;
     std::span<const CapOf> caps_;
+    VertexSet<D> vertices_;
     std::size_t last_ = 0;
 };
 
@@ -114,10 +127,10 @@ CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_
                           std::span<const CapOf> caps)
     : all_cells_{cells}, vertex_count_{vertex_count} {
     cells_before_.push_back(0);
+    first_vertex_.push_back(0);
     find_prisms(caps);
     tested_ = first_cell_.size();
     first_cell_.push_back(static_cast<Index>(cells.size())); // keeps count() simple
-    list_vertices();
     list_groups();
 }
 
@@ -141,61 +154,44 @@ void CellGroups<D>::complete(std::span<const Index> at_vertices, std::span<const
     }
     first_cell_.pop_back();
     for (const Index c : found) {
+        Simplex<D> vertices = all_cells_[c];
+        std::sort(vertices.begin(), vertices.end());
+        vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
         add_group(c, 1);
     }
     first_cell_.push_back(static_cast<Index>(all_cells_.size()));
-    list_vertices();
     list_groups();
 }
 
+/// The group's vertices are the last of all.
 template<int D>
 void CellGroups<D>::add_group(std::size_t first, std::size_t count) {
     first_cell_.push_back(static_cast<Index>(first));
     cells_before_.push_back(cells_before_.back() + count);
+    first_vertex_.push_back(vertices_.size());
 }
 
 template<int D>
 void CellGroups<D>::find_prisms(std::span<const CapOf> caps) {
     const auto start = static_cast<std::size_t>(std::find(caps.begin(), caps.end(), CapOf::none) - caps.begin());
-    const std::size_t all = caps.size() - start;
-    const auto cut = [&](std::size_t begin, std::size_t end, std::vector<std::uint8_t>& counts) {
-        counts = PrismFinder<D>{all_cells_, caps}.cut(start + begin, start + end);
+    const auto cut = [&](std::size_t begin, std::size_t end, GroupsOfPiece& groups) {
+        groups = PrismFinder<D>{all_cells_, caps}.cut(start + begin, start + end);
     };
     std::size_t c = start;
-    for (const std::size_t count : parallel_gather<std::uint8_t>(all, grain, cut)) {
-        if (count > 0) {
-            add_group(c, count);
+    for (GroupsOfPiece& piece : parallel_pieces<GroupsOfPiece>(caps.size() - start, grain, cut)) {
+        auto vertices = piece.vertices.begin();
+        auto vertex_count = piece.vertex_counts.begin();
+        for (const std::size_t count : piece.cells) {
+            if (count > 0) {
+                const auto end = vertices + *vertex_count++;
+                vertices_.insert(vertices_.end(), vertices, end);
+                vertices = end;
+                add_group(c, count);
+            }
+            c += std::max<std::size_t>(count, 1);
         }
-        c += std::max<std::size_t>(count, 1);
+        piece = {};
     }
-}
-
-template<int D>
-void CellGroups<D>::list_vertices() {
-    const auto vertices_of = [&](std::size_t group) {
-        VertexSet<D> set;
-        for (std::size_t k = 0; k < cell_count(group); ++k) {
-            set.add(all_cells_[first_cell_[group] + k]);
-        }
-        return set;
-    };
-    first_vertex_.assign(count() + 1, 0);
-    parallel_for(count(), group_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t g = begin; g < end; ++g) {
-            first_vertex_[g + 1] = vertices_of(g).size();
-        }
-    });
-    for (std::size_t g = 0; g < count(); ++g) {
-        first_vertex_[g + 1] += first_vertex_[g];
-    }
-    vertices_.resize(first_vertex_.back());
-    parallel_for(count(), group_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t g = begin; g < end; ++g) {
-            const VertexSet<D> set = vertices_of(g);
-            std::copy(set.begin(), set.end(),
-                      vertices_.begin() + static_cast<std::ptrdiff_t>(first_vertex_[g]));
-        }
-    });
 }
 
 template<int D>

@@ -53,7 +53,6 @@ public:
 private:
     void find_prisms(std::span<const CapOf> caps);
     void add_group(std::size_t first, std::size_t count);
-    void list_vertices();
     void list_groups();
 
     std::span<const Simplex<D>> all_cells_;

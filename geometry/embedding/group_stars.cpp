@@ -10,6 +10,7 @@
 #include "slabhull/geometry/measures.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -124,29 +125,31 @@ private:
         std::uint32_t offset = 1;
         for (std::size_t k = 0; k < groups_.size(); ++k) {
             const auto cells = s_.cells_of(groups_[k]);
+            const auto vertices = s_.groups_.vertices(groups_[k]);
+            const auto own = static_cast<std::uint32_t>(
+                std::lower_bound(vertices.begin(), vertices.end(), v_) - vertices.begin());
             for (std::size_t c = 0; c < cells.size(); ++c) {
                 Corners corners;
+                unsigned opposite = 0; // the facet opposite to v
                 for (std::size_t i = 0; i <= D; ++i) {
                     corners.at[i] = offset + cells[c].corner[i];
+                    opposite |= unsigned{cells[c].corner[i] == own} << i;
                 }
-                if (!is_positive(corners) || !sees_border(first_[k] + c, cells[c].outer, corners)) {
+                const unsigned outer = opposite != 0 ? cells[c].outer & opposite : cells[c].outer;
+                if (!is_positive(corners) || !sees_border(first_[k] + c, outer, corners)) {
                     return false;
                 }
             }
-            offset += static_cast<std::uint32_t>(s_.groups_.vertices(groups_[k]).size());
+            offset += static_cast<std::uint32_t>(vertices.size());
         }
         return true;
     }
 
-    /// Facets at v are never in the border: all cells at v are here.
+    /// `outer`: the facets of a cell that may be in the border. Those at v never are: all cells at v are here.
     bool sees_border(std::size_t cell, unsigned outer, const Corners& corners) {
-        const Simplex<D>& vertices = s_.cells_[cell];
-        const auto own = std::find(vertices.begin(), vertices.end(), v_) - vertices.begin();
-        if (own <= D) {
-            outer &= 1u << own;
-        }
-        for (std::size_t i = 0; i <= D; ++i) {
-            if ((outer >> i & 1u) == 0 || is_here(s_.neighbors_[cell][i])) {
+        for (; outer != 0; outer &= outer - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(outer));
+            if (is_here(s_.neighbors_[cell][i])) {
                 continue;
             }
             Corners seen = corners;

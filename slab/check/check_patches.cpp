@@ -21,10 +21,10 @@ using TrackSet = std::array<TrackId, D>;
 
 /// The tracks of a cell's vertices, at most D in a prism's cell. `size` receives their number.
 template<int D>
-TrackSet<D> tracks_of(const HullView<D>& view, std::size_t cell, std::size_t& size) {
+TrackSet<D> tracks_of(const Simplex<D>& cell, const Array<TrackId>& track, std::size_t& size) {
     std::array<TrackId, D + 1> tracks;
     for (std::size_t i = 0; i <= D; ++i) {
-        tracks[i] = view.track[view.cells()[cell][i]];
+        tracks[i] = track[cell[i]];
         for (std::size_t k = i; k > 0; --k) { // branch-free, other than a search for the place
             const TrackId low = std::min(tracks[k - 1], tracks[k]);
             tracks[k] = std::max(tracks[k - 1], tracks[k]);
@@ -35,13 +35,13 @@ TrackSet<D> tracks_of(const HullView<D>& view, std::size_t cell, std::size_t& si
     set.fill(no_track);
     size = 0;
     TrackId before = no_track;
-    for (const TrackId track : tracks) {
-        if (track >= 0 && track != before) {
+    for (const TrackId one : tracks) {
+        if (one >= 0 && one != before) {
             if (size < D) {
-                set[size] = track;
+                set[size] = one;
             }
             ++size;
-            before = track;
+            before = one;
         }
     }
     return set;
@@ -67,10 +67,20 @@ struct FacetPatch {
 template<int D>
 using FacetPatches = std::vector<FacetPatch<D>>;
 
+/// The track of each vertex, to be asked for often: a list in runs would have to be searched.
+template<int D>
+Array<TrackId> all_tracks(const HullView<D>& view) {
+    Array<TrackId> tracks(view.track.size());
+    parallel_for(tracks.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+        view.track.copy(begin, end, tracks.data() + begin);
+    });
+    return tracks;
+}
+
 /// Calls full(claim) for side cells that have all tracks of a facet, and partial(claim) for the others, in
 /// [begin, end). Cells of a side that is not made of prisms may have no claim.
 template<int D, class Full, class Partial>
-void for_each_claim(const HullView<D>& view, std::size_t begin, std::size_t end, const Full& full,
+void for_each_claim(const HullView<D>& view, const Array<TrackId>& track, std::size_t begin, std::size_t end, const Full& full,
                     const Partial& partial) {
     std::vector<std::int64_t> patch(end - begin);
     view.hull.patch.fill(begin, end, patch.data());
@@ -79,7 +89,7 @@ void for_each_claim(const HullView<D>& view, std::size_t begin, std::size_t end,
             continue; // invalid patch numbers are reported separately
         }
         std::size_t size = 0;
-        const TrackSet<D> tracks = tracks_of(view, c, size);
+        const TrackSet<D> tracks = tracks_of<D>(view.cells()[c], track, size);
         const PatchClaim<D> claim{tracks, static_cast<PatchNumber>(patch[c - begin]), static_cast<Index>(c)};
         if (size == D) {
             full(claim);
@@ -137,7 +147,7 @@ private:
 
 /// Goes block by block to save memory: many layers repeat the claim for one facet.
 template<int D>
-DistinctClaims<D> distinct_claims(const HullView<D>& view) {
+DistinctClaims<D> distinct_claims(const HullView<D>& view, const Array<TrackId>& track) {
     constexpr std::size_t block = std::size_t{1} << 20;
     DistinctClaims<D> all;
     for (std::size_t first = 0; first < view.cells().size(); first += block) {
@@ -151,7 +161,7 @@ DistinctClaims<D> distinct_claims(const HullView<D>& view) {
                     }
                 };
             };
-            for_each_claim(view, first + begin, first + end, take_to(piece.facets), take_to(piece.parts));
+            for_each_claim(view, track, first + begin, first + end, take_to(piece.facets), take_to(piece.parts));
             piece.sort();
         };
         for (const DistinctClaims<D>& piece :
@@ -165,10 +175,10 @@ DistinctClaims<D> distinct_claims(const HullView<D>& view) {
 
 /// All claims about whole facets, sorted; needed only if a facet has different patches.
 template<int D>
-std::vector<PatchClaim<D>> full_claims(const HullView<D>& view) {
+std::vector<PatchClaim<D>> full_claims(const HullView<D>& view, const Array<TrackId>& track) {
     std::vector<PatchClaim<D>> claims;
     for_each_claim(
-        view, 0, view.cells().size(), [&](const PatchClaim<D>& claim) { claims.push_back(claim); },
+        view, track, 0, view.cells().size(), [&](const PatchClaim<D>& claim) { claims.push_back(claim); },
         [](const PatchClaim<D>&) {});
     std::sort(claims.begin(), claims.end());
     return claims;
@@ -186,8 +196,8 @@ void report_mismatches(std::span<const PatchClaim<D>> column, Findings& findings
         cells.push_back(claim.cell);
     }
     std::string tracks;
-    for (const TrackId track : column.front().tracks) {
-        tracks += fmt::format("{}{}", tracks.empty() ? "" : ", ", track);
+    for (const TrackId one : column.front().tracks) {
+        tracks += fmt::format("{}{}", tracks.empty() ? "" : ", ", one);
     }
     std::vector<Entity> entities = findings.cell_entities(cells);
     const std::string text = fmt::format(
@@ -220,10 +230,10 @@ FacetPatches<D> patches_of_parts(const FacetPatches<D>& facets) {
 
 /// Cells whose tracks are part of no facet of their patch, ascending; needed only if there are any.
 template<int D>
-std::vector<PatchClaim<D>> partial_claims_without(const HullView<D>& view, const FacetPatches<D>& parts) {
+std::vector<PatchClaim<D>> partial_claims_without(const HullView<D>& view, const Array<TrackId>& track, const FacetPatches<D>& parts) {
     std::vector<PatchClaim<D>> without;
     for_each_claim(
-        view, 0, view.cells().size(), [](const PatchClaim<D>&) {},
+        view, track, 0, view.cells().size(), [](const PatchClaim<D>&) {},
         [&](const PatchClaim<D>& claim) {
             if (!std::binary_search(parts.begin(), parts.end(), FacetPatch<D>{claim.tracks, claim.patch})) {
                 without.push_back(claim);
@@ -300,13 +310,14 @@ std::vector<PatchCount> check_patches(const HullView<D>& view, Findings& finding
 
 template<int D>
 void check_patch_columns(const HullView<D>& view, Findings& findings) {
-    const DistinctClaims<D> claims = distinct_claims(view);
+    const Array<TrackId> track = all_tracks(view);
+    const DistinctClaims<D> claims = distinct_claims(view, track);
     const FacetPatches<D>& facets = claims.facets;
     const auto same_facet = [](const FacetPatch<D>& a, const FacetPatch<D>& b) {
         return a.tracks == b.tracks;
     };
     if (std::adjacent_find(facets.begin(), facets.end(), same_facet) != facets.end()) {
-        const std::vector<PatchClaim<D>> full = full_claims(view);
+        const std::vector<PatchClaim<D>> full = full_claims(view, track);
         for (auto run = full.begin(); run != full.end();) {
             const auto end = std::find_if(
                 run, full.end(), [&](const PatchClaim<D>& claim) { return claim.tracks != run->tracks; });
@@ -318,7 +329,7 @@ void check_patch_columns(const HullView<D>& view, Findings& findings) {
     if (has_all<D>(parts, claims.parts)) {
         return;
     }
-    for (const PatchClaim<D>& claim : partial_claims_without<D>(view, parts)) {
+    for (const PatchClaim<D>& claim : partial_claims_without<D>(view, track, parts)) {
         findings.cell(Defect::patch_mismatch, claim.cell,
                       fmt::format("in patch {}, which no boundary facet below it has", claim.patch));
     }
@@ -326,7 +337,7 @@ void check_patch_columns(const HullView<D>& view, Findings& findings) {
 
 template<int D>
 bool patch_columns_agree(const HullView<D>& view, Communicator& ranks) {
-    const DistinctClaims<D> mine = distinct_claims(view);
+    const DistinctClaims<D> mine = distinct_claims(view, all_tracks(view));
     const Array<FacetPatch<D>> all = joined(ranks.all_gather<FacetPatch<D>>(mine.facets));
     FacetPatches<D> facets(all.begin(), all.end());
     sort_out(facets);
