@@ -13,6 +13,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace slabhull {
@@ -65,6 +66,10 @@ private:
         for (const Index g : groups_) {
             first_.push_back(s_.groups_.first_cell(g));
             cells_.push_back(static_cast<Index>(s_.groups_.cell_count(g)));
+        }
+        while (first_.size() % at_once != 0) { // no cell is in these
+            first_.push_back(0);
+            cells_.push_back(0);
         }
     }
 
@@ -168,11 +173,16 @@ private:
         if (groups_.size() > 64) {
             return is_here_by_search(cell);
         }
-        bool here = false;
-        for (std::size_t k = 0; k < first_.size(); ++k) {
-            here |= cell - first_[k] < cells_[k];
+        using Four = Index __attribute__((vector_size(at_once * sizeof(Index))));
+        Four here{};
+        for (std::size_t k = 0; k < first_.size(); k += at_once) {
+            Four first;
+            Four cells;
+            std::memcpy(&first, &first_[k], sizeof(first));
+            std::memcpy(&cells, &cells_[k], sizeof(cells));
+            here |= static_cast<Four>(cell - first < cells);
         }
-        return here;
+        return (here[0] | here[1] | here[2] | here[3]) != 0;
     }
     bool is_here_by_search(Index cell) const {
         const auto tested = std::lower_bound(groups_.begin(), groups_.end(), s_.groups_.tested());
@@ -182,7 +192,8 @@ private:
             return next != begin &&
                    cell - next[-1] < cells_[static_cast<std::size_t>(next - first_.begin()) - 1];
         };
-        return in(first_.begin(), middle) || in(middle, first_.end());
+        return in(first_.begin(), middle) ||
+               in(middle, first_.begin() + static_cast<std::ptrdiff_t>(groups_.size()));
     }
 
     double orientation(const std::array<std::uint32_t, D + 1>& at) const {
@@ -301,8 +312,10 @@ private:
     const GroupStars<D>& s_;
     Index v_ = 0;
     std::span<const Index> groups_;
-    std::vector<Index> first_; ///< first cell of each group
-    std::vector<Index> cells_; ///< number of cells of each group
+    static constexpr std::size_t at_once = 4;
+
+    std::vector<Index> first_; ///< first cell of each group; then some zeros, up to a multiple of at_once
+    std::vector<Index> cells_; ///< number of cells of each group, and as many zeros
     std::vector<Place> places_;
     std::vector<Corners> border_;
     std::vector<Point<D + 1>> unit_normals_;
