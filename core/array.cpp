@@ -20,8 +20,8 @@ constexpr std::size_t rounded(std::size_t bytes) {
     return (bytes + huge_page - 1) / huge_page * huge_page;
 }
 
-/// The addresses that a block of so many bytes gets: whole huge pages, and a multiple of a 16th of its size or
-/// more, so that blocks of nearly the same size can take each other's place. Pages not used cost nothing.
+/// The addresses that a block of so many bytes gets: whole huge pages, and a multiple of a 16th of its size
+/// or more, so that blocks of nearly the same size can take each other's place. Pages not used cost nothing.
 constexpr std::size_t block_size(std::size_t bytes) {
     const std::size_t step = std::max(huge_page, std::bit_floor(bytes) / 16);
     return (bytes + step - 1) / step * step;

@@ -118,14 +118,16 @@ void give_back_freed_memory() {
 }
 
 void keep_freed_memory() {
-    [[maybe_unused]] static const int registered = pthread_atfork(
-        [] { detail::page_pool().lock(); }, [] { detail::page_pool().unlock(); },
-        [] { detail::page_pool().unlock(); });
+    [[maybe_unused]] static const int registered =
+        pthread_atfork([] { detail::page_pool().lock(); }, [] { detail::page_pool().unlock(); },
+                       [] { detail::page_pool().unlock(); });
     detail::page_pool().begin_to_keep();
 #ifdef __GLIBC__
-    ::mallopt(M_MMAP_THRESHOLD, 32 << 20); // the largest that can be; arrays of that size have their own pages
+    ::mallopt(M_MMAP_THRESHOLD,
+              32 << 20); // the largest that can be; arrays of that size have their own pages
     ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
-    ::mallopt(M_ARENA_MAX, std::max(2, thread_count())); // threads come and go: one's freed memory serves the next
+    ::mallopt(M_ARENA_MAX,
+              std::max(2, thread_count())); // threads come and go: one's freed memory serves the next
 #endif
 }
 

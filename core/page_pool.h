@@ -8,11 +8,11 @@
 
 namespace slabhull::detail {
 
-/// Large blocks of memory that were given back, kept for the next of the same size: to touch fresh memory costs
-/// several times more than to write to it. For all threads.
+/// Large blocks of memory that were given back, kept for the next of the same size: to touch fresh memory
+/// costs several times more than to write to it. For all threads.
 ///
-/// The kept blocks and those in use, together, are never more than those in use were at the worst moment: before
-/// more is taken from the system, as many kept bytes go back to it.
+/// The kept blocks and those in use, together, are never more than those in use were at the worst moment:
+/// before more is taken from the system, as many kept bytes go back to it.
 class PagePool {
 public:
     explicit PagePool(bool keeps = false) : keeps_{keeps} {}
@@ -23,8 +23,8 @@ public:
     /// From now on blocks are kept.
     void begin_to_keep() { keeps_ = true; }
 
-    /// A kept block of exactly so many bytes. Null when there is none: then as many bytes have gone back to the
-    /// system, if so many were kept, so that the caller may take them from there.
+    /// A kept block of exactly so many bytes. Null when there is none: then as many bytes have gone back to
+    /// the system, if so many were kept, so that the caller may take them from there.
     void* take(std::size_t bytes) noexcept;
 
     /// Takes a block that was mapped; what it holds is lost.

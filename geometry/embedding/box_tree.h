@@ -161,9 +161,8 @@ public:
         descend(levels_.size(), 0, own, around, [&](std::size_t leaf) {
             each_bit(boxes_[leaf].meeting(around), [&](std::size_t k) {
                 const unsigned before = leaf == own ? (1u << k) - 1 : ~0u;
-                each_bit(boxes_[own].meeting(boxes_[leaf].box(k)) & before, [&](std::size_t j) {
-                    visit(items_[own * block + j], items_[leaf * block + k]);
-                });
+                each_bit(boxes_[own].meeting(boxes_[leaf].box(k)) & before,
+                         [&](std::size_t j) { visit(items_[own * block + j], items_[leaf * block + k]); });
             });
         });
     }
@@ -177,7 +176,8 @@ private:
         }
     }
 
-    /// Calls visit(leaf) for the leaves under a node, from `first` on, whose box meets `box`. Level 0: leaves.
+    /// Calls visit(leaf) for the leaves under a node, from `first` on, whose box meets `box`. Level 0:
+    /// leaves.
     template<class Visit>
     void descend(std::size_t level, std::size_t node, std::size_t first, const Box<D>& box,
                  const Visit& visit) const {

@@ -89,8 +89,8 @@ public:
     }
 
 private:
-    /// The number of cells of the prism there, or 1; leaves their vertices. Starts with the kind found last, since
-    /// prisms of one kind follow each other.
+    /// The number of cells of the prism there, or 1; leaves their vertices. Starts with the kind found last,
+    /// since prisms of one kind follow each other.
     std::size_t prism_at(std::size_t c, std::size_t end) {
         for (std::size_t turn = 0; turn < prism_kinds<D>.size(); ++turn) {
             const std::size_t kind = (last_ + turn) % prism_kinds<D>.size();
@@ -142,8 +142,8 @@ void CellGroups<D>::complete(std::span<const Index> at_vertices, std::span<const
     }
     const auto find = [&](std::size_t begin, std::size_t end, std::vector<Index>& found) {
         for (std::size_t c = begin; c < end; ++c) {
-            if (caps[c] != CapOf::none && std::any_of(all_cells_[c].begin(), all_cells_[c].end(),
-                                                      [&](Index v) { return wanted[v]; })) {
+            if (caps[c] != CapOf::none &&
+                std::any_of(all_cells_[c].begin(), all_cells_[c].end(), [&](Index v) { return wanted[v]; })) {
                 found.push_back(static_cast<Index>(c));
             }
         }
@@ -173,7 +173,8 @@ void CellGroups<D>::add_group(std::size_t first, std::size_t count) {
 
 template<int D>
 void CellGroups<D>::find_prisms(std::span<const CapOf> caps) {
-    const auto start = static_cast<std::size_t>(std::find(caps.begin(), caps.end(), CapOf::none) - caps.begin());
+    const auto start =
+        static_cast<std::size_t>(std::find(caps.begin(), caps.end(), CapOf::none) - caps.begin());
     const auto cut = [&](std::size_t begin, std::size_t end, GroupsOfPiece& groups) {
         groups = PrismFinder<D>{all_cells_, caps}.cut(start + begin, start + end);
     };

@@ -27,8 +27,8 @@ public:
     /// `caps`: of each cell; those in no cap are tested.
     CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, std::span<const CapOf> caps);
 
-    /// Adds the cells in caps that are at one of these vertices, so that groups_of() these has all their cells.
-    /// To be called once.
+    /// Adds the cells in caps that are at one of these vertices, so that groups_of() these has all their
+    /// cells. To be called once.
     void complete(std::span<const Index> at_vertices, std::span<const CapOf> caps);
 
     std::size_t tested() const { return tested_; }

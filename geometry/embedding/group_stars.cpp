@@ -150,7 +150,8 @@ private:
         return true;
     }
 
-    /// `outer`: the facets of a cell that may be in the border. Those at v never are: all cells at v are here.
+    /// `outer`: the facets of a cell that may be in the border. Those at v never are: all cells at v are
+    /// here.
     bool sees_border(std::size_t cell, unsigned outer, const Corners& corners) {
         for (; outer != 0; outer &= outer - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(outer));

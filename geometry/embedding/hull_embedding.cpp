@@ -36,7 +36,8 @@ public:
                     const AdjacencyView<D>& adjacency, std::size_t limit)
         : points_{points}, cells_{cells}, adjacency_{adjacency}, limit_{limit}, scale_{scale_of_cells<D>(
                                                                                     points, cells)},
-          cell_pairs_{points, cells, scale_}, caps_{unproven_to_none()}, groups_{cells, points.size(), caps_} {}
+          cell_pairs_{points, cells, scale_}, caps_{unproven_to_none()}, groups_{cells, points.size(),
+                                                                                 caps_} {}
 
     HullEmbedding<D> run() {
         prove_stars();

@@ -80,8 +80,8 @@ Array<TrackId> all_tracks(const HullView<D>& view) {
 /// Calls full(claim) for side cells that have all tracks of a facet, and partial(claim) for the others, in
 /// [begin, end). Cells of a side that is not made of prisms may have no claim.
 template<int D, class Full, class Partial>
-void for_each_claim(const HullView<D>& view, const Array<TrackId>& track, std::size_t begin, std::size_t end, const Full& full,
-                    const Partial& partial) {
+void for_each_claim(const HullView<D>& view, const Array<TrackId>& track, std::size_t begin, std::size_t end,
+                    const Full& full, const Partial& partial) {
     std::vector<std::int64_t> patch(end - begin);
     view.hull.patch.fill(begin, end, patch.data());
     for (std::size_t c = begin; c < end; ++c) {
@@ -161,7 +161,8 @@ DistinctClaims<D> distinct_claims(const HullView<D>& view, const Array<TrackId>&
                     }
                 };
             };
-            for_each_claim(view, track, first + begin, first + end, take_to(piece.facets), take_to(piece.parts));
+            for_each_claim(view, track, first + begin, first + end, take_to(piece.facets),
+                           take_to(piece.parts));
             piece.sort();
         };
         for (const DistinctClaims<D>& piece :
@@ -230,7 +231,8 @@ FacetPatches<D> patches_of_parts(const FacetPatches<D>& facets) {
 
 /// Cells whose tracks are part of no facet of their patch, ascending; needed only if there are any.
 template<int D>
-std::vector<PatchClaim<D>> partial_claims_without(const HullView<D>& view, const Array<TrackId>& track, const FacetPatches<D>& parts) {
+std::vector<PatchClaim<D>> partial_claims_without(const HullView<D>& view, const Array<TrackId>& track,
+                                                  const FacetPatches<D>& parts) {
     std::vector<PatchClaim<D>> without;
     for_each_claim(
         view, track, 0, view.cells().size(), [](const PatchClaim<D>&) {},

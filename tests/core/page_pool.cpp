@@ -117,7 +117,8 @@ TEST_CASE("threads never get the same block at once", "[pages]") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("arrays reuse kept memory, in forked children too, which are made while threads allocate", "[pages]") {
+TEST_CASE("arrays reuse kept memory, in forked children too, which are made while threads allocate",
+          "[pages]") {
     keep_freed_memory();
     const auto fill = [] {
         for (int k = 0; k < 50; ++k) {

@@ -107,7 +107,8 @@ private:
     const Run& run_of(std::size_t at) const {
         const std::size_t b = at / block;
         const Run* const first = runs_.data() + run_at_block_[b];
-        const Run* const last = runs_.data() + (b + 1 < run_at_block_.size() ? run_at_block_[b + 1] : runs_.size() - 1);
+        const Run* const last =
+            runs_.data() + (b + 1 < run_at_block_.size() ? run_at_block_[b + 1] : runs_.size() - 1);
         if (last - first > 1) {
             return search_run(first, last, at);
         }
