@@ -110,7 +110,7 @@ std::size_t available_memory(const fs::path& root) {
 
 void give_back_freed_memory() {
 #ifdef __GLIBC__
-    constexpr std::size_t worth_the_faults = std::size_t{32} << 20; // what is taken again is slow to touch
+    constexpr std::size_t worth_the_faults = std::size_t{16} << 20; // what is taken again is slow to touch
     if (::mallinfo2().fordblks > worth_the_faults) {
         ::malloc_trim(0);
     }
@@ -123,11 +123,11 @@ void keep_freed_memory() {
                        [] { detail::page_pool().unlock(); });
     detail::page_pool().begin_to_keep();
 #ifdef __GLIBC__
-    ::mallopt(M_MMAP_THRESHOLD,
-              32 << 20); // the largest that can be; arrays of that size have their own pages
-    ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
-    ::mallopt(M_ARENA_MAX,
-              std::max(2, thread_count())); // threads come and go: one's freed memory serves the next
+    constexpr int mib = 1 << 20;
+    ::mallopt(M_MMAP_THRESHOLD, 8 * mib); // larger ones go back at once
+    ::mallopt(M_TRIM_THRESHOLD, 24 * mib);
+    // Threads come and go: what one of them has freed serves the next.
+    ::mallopt(M_ARENA_MAX, std::max(2, thread_count()));
 #endif
 }
 

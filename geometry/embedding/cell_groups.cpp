@@ -163,6 +163,22 @@ void CellGroups<D>::complete(std::span<const Index> at_vertices, std::span<const
     list_groups();
 }
 
+/// For all groups of the pieces, and the last entries: arrays that grow touch fresh memory again and again.
+template<int D>
+template<class Pieces>
+void CellGroups<D>::make_room(const Pieces& pieces) {
+    std::size_t groups = 1;
+    std::size_t vertices = 0;
+    for (const auto& piece : pieces) {
+        groups += piece.vertex_counts.size();
+        vertices += piece.vertices.size();
+    }
+    first_cell_.reserve(groups);
+    cells_before_.reserve(groups);
+    first_vertex_.reserve(groups);
+    vertices_.reserve(vertices);
+}
+
 /// The group's vertices are the last of all.
 template<int D>
 void CellGroups<D>::add_group(std::size_t first, std::size_t count) {
@@ -178,8 +194,10 @@ void CellGroups<D>::find_prisms(std::span<const CapOf> caps) {
     const auto cut = [&](std::size_t begin, std::size_t end, GroupsOfPiece& groups) {
         groups = PrismFinder<D>{all_cells_, caps}.cut(start + begin, start + end);
     };
+    auto pieces = parallel_pieces<GroupsOfPiece>(caps.size() - start, grain, cut);
+    make_room(pieces);
     std::size_t c = start;
-    for (GroupsOfPiece& piece : parallel_pieces<GroupsOfPiece>(caps.size() - start, grain, cut)) {
+    for (GroupsOfPiece& piece : pieces) {
         auto vertices = piece.vertices.begin();
         auto vertex_count = piece.vertex_counts.begin();
         for (const std::size_t count : piece.cells) {

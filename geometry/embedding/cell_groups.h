@@ -52,6 +52,8 @@ public:
 
 private:
     void find_prisms(std::span<const CapOf> caps);
+    template<class Pieces>
+    void make_room(const Pieces& pieces);
     void add_group(std::size_t first, std::size_t count);
     void list_groups();
 

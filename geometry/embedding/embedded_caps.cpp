@@ -14,6 +14,7 @@
 #include <atomic>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace slabhull {
 
@@ -198,9 +199,9 @@ private:
 } // namespace
 
 template<int D>
-std::vector<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
+Array<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells) {
     const std::array<double, 2> times = time_range<D>(points, cells);
-    std::vector<CapOf> caps(cells.size(), CapOf::none);
+    Array<CapOf> caps(cells.size());
     parallel_for(cells.size(), cap_grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const auto all_at = [&](double time) {
@@ -220,8 +221,8 @@ bool caps_are_embedded(std::span<const Point<D + 1>> points, std::span<const Sim
     return adjacency.defects.empty() && proof.holds(CapOf::first) && proof.holds(CapOf::last);
 }
 
-template std::vector<CapOf> find_caps<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
-template std::vector<CapOf> find_caps<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
+template Array<CapOf> find_caps<2>(std::span<const Point<3>>, std::span<const Simplex<2>>);
+template Array<CapOf> find_caps<3>(std::span<const Point<4>>, std::span<const Simplex<3>>);
 template bool caps_are_embedded<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
                                    const AdjacencyView<2>&, std::span<const CapOf>);
 template bool caps_are_embedded<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/core/array.h"
 #include "slabhull/core/point.h"
 #include "slabhull/topology/adjacency.h"
 
 #include <span>
-#include <vector>
 
 namespace slabhull {
 
@@ -14,7 +14,7 @@ enum class CapOf : unsigned char { none, first, last };
 
 /// The cap of each cell: all its vertices are at the earliest or at the latest time of the hull.
 template<int D>
-std::vector<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells);
+Array<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells);
 
 /// Whether neither cap crosses itself or a cell of the side, proven without testing pairs of cells:
 ///

@@ -56,8 +56,8 @@ private:
 
     /// The cap of each cell, if both are proven to be embedded; else all cells are taken for the side's, so
     /// that they are tested.
-    std::vector<CapOf> unproven_to_none() {
-        std::vector<CapOf> caps = find_caps<D>(points_, cells_);
+    Array<CapOf> unproven_to_none() {
+        Array<CapOf> caps = find_caps<D>(points_, cells_);
         result_.caps_proven = caps_are_embedded<D>(points_, cells_, adjacency_, caps);
         if (!result_.caps_proven) {
             std::fill(caps.begin(), caps.end(), CapOf::none);
@@ -262,7 +262,7 @@ private:
     Point<D + 1> scale_;
     CellPairs<D> cell_pairs_;
     HullEmbedding<D> result_;
-    std::vector<CapOf> caps_; ///< until the groups are complete
+    Array<CapOf> caps_; ///< until the groups are complete
     CellGroups<D> groups_;
     std::vector<Index> centres_; ///< centres of stars; later only of those not proven
     Array<Star> star_of_;        ///< by vertex

@@ -18,8 +18,8 @@ void give_back_freed_memory();
 /// From now on keeps more of the memory that this process frees, since fresh memory is slow to touch: for a
 /// program that does the same again and again, as a march does slab after slab. Memory of arrays is kept
 /// without limit, but it never makes the arrays' memory larger than it was in use at the worst moment; of
-/// small blocks, the C library keeps some 100 MiB at most. Settings of the whole process: a library leaves
-/// them to its user.
+/// small blocks, the C library keeps some tens of MiB at most. Settings of the whole process: a library
+/// leaves them to its user.
 void keep_freed_memory();
 
 } // namespace slabhull
