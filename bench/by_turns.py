@@ -4,10 +4,11 @@
 
     bench/by_turns.py OLD/slabhull NEW/slabhull [--rounds 3] [--threads N] [meshed moved adapted]
 
-A case's times count only when both programs wrote the same hulls and caps, byte for byte. Prints a line of JSON per case: seconds of each run, the ratio
-of the medians, and the peak memory of program and mesher."""
+A case's times count only when both programs wrote the same hulls and caps, byte for byte. Prints a line of JSON per case: seconds of each run, wall and CPU
+(the meshers' processes not counted) with the system's part, pages that were touched first, the peak memory of program and mesher, and the ratios of the medians."""
 import argparse
 import json
+import os
 import statistics
 import subprocess
 import sys
@@ -25,10 +26,14 @@ CASES = {
 
 def run(program, case, out, threads):
     began = time.perf_counter()
-    subprocess.run([program, "build", case, "--out", out, "--quiet", "--threads", str(threads)], check=True)
+    process = subprocess.Popen([program, "build", case, "--out", out, "--quiet", "--threads", str(threads)])
+    _, status, usage = os.wait4(process.pid, 0)
     seconds = time.perf_counter() - began
+    if status != 0:
+        sys.exit(f"{program} ended with status {status}")
     peak = json.loads((out / "report.json").read_text())["peak_memory"]
-    return {"seconds": round(seconds, 3), "mb": peak["bytes"] // 10**6, "mesher_mb": peak["mesher_bytes"] // 10**6}
+    return {"seconds": round(seconds, 3), "cpu": round(usage.ru_utime + usage.ru_stime, 3), "system": round(usage.ru_stime, 3),
+            "faults": usage.ru_minflt, "mb": peak["bytes"] // 10**6, "mesher_mb": peak["mesher_bytes"] // 10**6}
 
 
 def differ(one, other):
@@ -50,9 +55,12 @@ def compare(old, new, name, rounds, threads):
                 runs[which].append(run(program, case, folder / which, threads))
         if wrong := differ(folder / "old", folder / "new"):
             sys.exit(f"{name}: not the same: {', '.join(wrong)}")
-    median = {which: statistics.median(each["seconds"] for each in runs[which]) for which in runs}
+    ratio = {}
+    for what in ("seconds", "cpu"):
+        old_one, new_one = (statistics.median(each[what] for each in runs[which]) for which in ("old", "new"))
+        ratio[what] = round(old_one / new_one, 3)
     print(json.dumps({"bench": "by_turns", "case": name, "threads": threads, **runs,
-                      "old_over_new": round(median["old"] / median["new"], 3)}), flush=True)
+                      "old_over_new": ratio["seconds"], "cpu_old_over_new": ratio["cpu"]}), flush=True)
 
 
 def main():

@@ -146,19 +146,10 @@ void IntegerList::append_run(std::int64_t first, std::size_t count, std::int64_t
     }
 }
 
-const IntegerList::Run& IntegerList::run_of(std::size_t at) const {
-    const std::size_t b = at / block;
-    const std::size_t last = b + 1 < run_at_block_.size() ? run_at_block_[b + 1] : runs_.size() - 1;
-    const auto after = [this](std::size_t run) {
-        return runs_.begin() + static_cast<std::ptrdiff_t>(run + 1);
-    };
-    const auto next = std::upper_bound(after(run_at_block_[b]), after(last), at,
-                                       [](std::size_t place, const Run& run) { return place < run.begin; });
-    return *std::prev(next);
-}
-
-std::int64_t IntegerList::operator[](std::size_t at) const {
-    return !narrow_.empty() ? narrow_[at] : !wide_.empty() ? wide_[at] : run_of(at).at(at);
+const IntegerList::Run& IntegerList::search_run(const Run* first, const Run* last, std::size_t at) {
+    const Run* const next = std::upper_bound(
+        first + 1, last + 1, at, [](std::size_t place, const Run& run) { return place < run.begin; });
+    return next[-1];
 }
 
 std::int64_t IntegerList::at(std::size_t place) const {

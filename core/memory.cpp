@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/core/memory.h"
 
+#include "core/page_pool.h"
+
+#include "slabhull/core/parallel.h"
+
 #include <algorithm>
 #include <cstdlib> // defines __GLIBC__
 #include <fstream>
 #include <optional>
 #include <string>
+
+#include <pthread.h>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -104,7 +110,24 @@ std::size_t available_memory(const fs::path& root) {
 
 void give_back_freed_memory() {
 #ifdef __GLIBC__
-    ::malloc_trim(0);
+    constexpr std::size_t worth_the_faults = std::size_t{16} << 20; // what is taken again is slow to touch
+    if (::mallinfo2().fordblks > worth_the_faults) {
+        ::malloc_trim(0);
+    }
+#endif
+}
+
+void keep_freed_memory() {
+    [[maybe_unused]] static const int registered =
+        pthread_atfork([] { detail::page_pool().lock(); }, [] { detail::page_pool().unlock(); },
+                       [] { detail::page_pool().unlock(); });
+    detail::page_pool().begin_to_keep();
+#ifdef __GLIBC__
+    constexpr int mib = 1 << 20;
+    ::mallopt(M_MMAP_THRESHOLD, 8 * mib); // larger ones go back at once
+    ::mallopt(M_TRIM_THRESHOLD, 24 * mib);
+    // Threads come and go: what one of them has freed serves the next.
+    ::mallopt(M_ARENA_MAX, std::max(2, thread_count()));
 #endif
 }
 

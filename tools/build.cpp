@@ -6,6 +6,7 @@
 #include "slabhull/cases/run.h"
 #include "slabhull/core/child_process.h"
 #include "slabhull/core/communicator.h"
+#include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/stopwatch.h"
 #include "slabhull/ranks/mpi.h"
@@ -87,6 +88,7 @@ int build(const BuildOptions& options, Communicator* ranks) {
 int build(const BuildOptions& options) {
     start_child_server(); // for meshers, while this process is small and knows nothing of MPI
     set_thread_count(options.threads);
+    keep_freed_memory(); // each slab takes what the one before it took
     const std::optional<StartedRank> started = started_by_mpirun();
     if (!started) {
         return build(options, nullptr);

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/parallel_sort.h"
+#include "core/pieces.h"
+
 #include "slabhull/core/array.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/point.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -59,6 +64,63 @@ private:
     }
 };
 
+/// Boxes side by side, so that two at a time are compared with another one.
+template<int D, std::size_t width>
+class BoxRow {
+public:
+    /// Empty boxes. Those of a BoxRow that is only declared are not: arrays of them are filled in parallel.
+    static BoxRow none() {
+        BoxRow row;
+        for (std::size_t k = 0; k < width; ++k) {
+            row.set(k, {});
+        }
+        return row;
+    }
+
+    void set(std::size_t place, const Box<D>& box) {
+        for (std::size_t k = 0; k < D; ++k) {
+            low_[k][place / 2][place % 2] = box.low[k];
+            high_[k][place / 2][place % 2] = box.high[k];
+        }
+    }
+    Box<D> box(std::size_t place) const {
+        Box<D> box;
+        for (std::size_t k = 0; k < D; ++k) {
+            box.low[k] = low_[k][place / 2][place % 2];
+            box.high[k] = high_[k][place / 2][place % 2];
+        }
+        return box;
+    }
+    Box<D> around() const {
+        Box<D> all;
+        for (std::size_t k = 0; k < width; ++k) {
+            all.include(box(k));
+        }
+        return all;
+    }
+
+    /// Bit k: whether box k meets `other`.
+    unsigned meeting(const Box<D>& other) const {
+        unsigned bits = 0;
+        for (std::size_t pair = 0; pair < width / 2; ++pair) {
+            auto apart = low_[0][pair] > other.high[0];
+            apart |= high_[0][pair] < other.low[0];
+            for (std::size_t k = 1; k < D; ++k) {
+                apart |= low_[k][pair] > other.high[k];
+                apart |= high_[k][pair] < other.low[k];
+            }
+            bits |= static_cast<unsigned>((~apart[0] & 1) | (~apart[1] & 2)) << (2 * pair);
+        }
+        return bits;
+    }
+
+private:
+    using Two = double __attribute__((vector_size(16)));
+
+    std::array<std::array<Two, width / 2>, D> low_;
+    std::array<std::array<Two, width / 2>, D> high_;
+};
+
 /// A bounding box tree over facets: finds those whose boxes meet.
 ///
 /// The boxes are ordered by size class first and along a Morton curve second, then grouped: `block` of them
@@ -82,24 +144,22 @@ public:
         build_levels();
     }
 
-    std::size_t blocks() const { return levels_.front().size(); }
+    std::size_t blocks() const { return boxes_.size(); }
     /// Boxes that together hold all items, at most so many (but at least one).
-    std::span<const Box<D>> at_most(std::size_t count) const {
-        const auto level = std::find_if(levels_.begin(), levels_.end(), [count](const Array<Box<D>>& boxes) {
-            return boxes.size() <= count;
-        });
-        return level == levels_.end() ? levels_.back() : *level;
+    Array<Box<D>> at_most(std::size_t count) const {
+        if (boxes_.size() <= count) {
+            return around_each(boxes_);
+        }
+        const auto level = std::find_if(levels_.begin(), levels_.end(),
+                                        [count](const Nodes& nodes) { return nodes.size() <= count; });
+        return around_each(level == levels_.end() ? levels_.back() : *level);
     }
 
     /// Calls visit(item) for each item whose box meets `box`.
     template<class Visit>
     void find(const Box<D>& box, Visit&& visit) const {
-        descend(levels_.size() - 1, 0, 0, box, [&](std::size_t leaf) {
-            for (std::size_t k = leaf * block; k < block_end(leaf); ++k) {
-                if (boxes_[k].meets(box)) {
-                    visit(items_[k]);
-                }
-            }
+        descend(levels_.size(), 0, 0, box, [&](std::size_t leaf) {
+            each_bit(boxes_[leaf].meeting(box), [&](std::size_t k) { visit(items_[leaf * block + k]); });
         });
     }
 
@@ -107,64 +167,83 @@ public:
     /// same block or a later one.
     template<class Visit>
     void find_pairs(std::size_t own, Visit&& visit) const {
-        const Box<D>& around = levels_.front()[own];
-        descend(levels_.size() - 1, 0, own, around, [&](std::size_t leaf) {
-            for (std::size_t k = leaf * block; k < block_end(leaf); ++k) {
-                if (boxes_[k].meets(around)) {
-                    const std::size_t end = leaf == own ? k : block_end(own);
-                    pair_up(k, own * block, end, visit);
-                }
-            }
+        const Box<D> around = boxes_[own].around();
+        descend(levels_.size(), 0, own, around, [&](std::size_t leaf) {
+            each_bit(boxes_[leaf].meeting(around), [&](std::size_t k) {
+                const unsigned before = leaf == own ? (1u << k) - 1 : ~0u;
+                each_bit(boxes_[own].meeting(boxes_[leaf].box(k)) & before,
+                         [&](std::size_t j) { visit(items_[own * block + j], items_[leaf * block + k]); });
+            });
         });
     }
 
 private:
-    std::size_t block_end(std::size_t leaf) const { return std::min(boxes_.size(), (leaf + 1) * block); }
+    template<class Rows>
+    static Array<Box<D>> around_each(const Rows& rows) {
+        Array<Box<D>> boxes;
+        for (const auto& row : rows) {
+            boxes.push_back(row.around());
+        }
+        return boxes;
+    }
 
-    template<class Visit>
-    void pair_up(std::size_t one, std::size_t begin, std::size_t end, Visit&& visit) const {
-        for (std::size_t k = begin; k < end; ++k) {
-            if (boxes_[k].meets(boxes_[one])) {
-                visit(items_[k], items_[one]);
-            }
+    /// Calls use(k) for each bit k that is set, ascending.
+    template<class Use>
+    static void each_bit(unsigned bits, const Use& use) {
+        for (; bits != 0; bits &= bits - 1) {
+            use(static_cast<std::size_t>(std::countr_zero(bits)));
         }
     }
 
-    /// Calls visit(leaf) for the leaves under a node, from `first` on, whose box meets `box`.
+    /// Calls visit(leaf) for the leaves under a node, from `first` on, whose box meets `box`. Level 0:
+    /// leaves.
     template<class Visit>
     void descend(std::size_t level, std::size_t node, std::size_t first, const Box<D>& box,
                  const Visit& visit) const {
-        if (!levels_[level][node].meets(box)) {
-            return;
-        }
         if (level == 0) {
             visit(node);
             return;
         }
-        const std::size_t end = std::min(levels_[level - 1].size(), (node + 1) * fan);
-        for (std::size_t child = std::max(node * fan, first >> (fan_bits * (level - 1))); child < end;
-             ++child) {
-            descend(level - 1, child, first, box, visit);
-        }
+        const std::size_t least = first >> (fan_bits * (level - 1));
+        each_bit(levels_[level - 1][node].meeting(box), [&](std::size_t k) {
+            if (node * fan + k >= least) {
+                descend(level - 1, node * fan + k, first, box, visit);
+            }
+        });
     }
 
     template<class BoxOf>
     void order_items(std::size_t count, const BoxOf& box_of);
     void build_levels();
 
+    using Leaves = Array<BoxRow<D, block>>;
+    using Nodes = Array<BoxRow<D, fan>>;
+
     std::vector<Index> items_;
-    Array<Box<D>> boxes_;               ///< in the order of items_
-    std::vector<Array<Box<D>>> levels_; ///< leaves first, the last has one node
+    Leaves boxes_;              ///< in the order of items_; those beyond them are empty
+    std::vector<Nodes> levels_; ///< boxes around the nodes below, leaves first; the last has one row
 };
 
 namespace detail {
 
-/// Spreads the bits of `value`: D - 1 zeros stand before each.
+/// The bits of numbers, spread: D - 1 zeros stand before each.
+template<int D>
+constexpr auto spread_bytes = [] {
+    std::array<std::uint32_t, 256> table{};
+    for (std::uint32_t value = 0; value < table.size(); ++value) {
+        for (int k = 0; k < 8; ++k) {
+            table[value] |= ((value >> k) & 1) << (k * D);
+        }
+    }
+    return table;
+}();
+
+/// Spreads the lowest `bits` bits of `value`, which has no others.
 template<int D>
 std::uint64_t spread_bits(std::uint64_t value, int bits) {
     std::uint64_t spread = 0;
-    for (int k = 0; k < bits; ++k) {
-        spread |= ((value >> k) & 1) << (k * D);
+    for (int k = 0; k < bits; k += 8) {
+        spread |= std::uint64_t{spread_bytes<D>[value >> k & 255]} << (k * D);
     }
     return spread;
 }
@@ -195,8 +274,13 @@ template<class BoxOf>
 void BoxTree<D>::order_items(std::size_t count, const BoxOf& box_of) {
     constexpr std::size_t grain = 1 << 14;
     Box<D> all;
-    for (std::size_t k = 0; k < count; ++k) {
-        all.include(box_of(k));
+    const auto include = [&](std::size_t begin, std::size_t end, Box<D>& piece) {
+        for (std::size_t k = begin; k < end; ++k) {
+            piece.include(box_of(k));
+        }
+    };
+    for (const Box<D>& piece : parallel_pieces<Box<D>>(count, grain, include)) {
+        all.include(piece);
     }
     Array<std::pair<std::uint64_t, Index>> order(count);
     parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
@@ -204,30 +288,37 @@ void BoxTree<D>::order_items(std::size_t count, const BoxOf& box_of) {
             order[k] = {detail::tree_key(box_of(k), all), static_cast<Index>(k)};
         }
     });
-    std::sort(order.begin(), order.end());
+    parallel_sort(order);
     items_.resize(count);
-    boxes_.resize(count);
-    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            items_[k] = order[k].second;
-            boxes_[k] = box_of(order[k].second);
+    boxes_.resize(std::max<std::size_t>(1, (count + block - 1) / block));
+    parallel_for(boxes_.size(), grain / block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t leaf = begin; leaf < end; ++leaf) {
+            boxes_[leaf] = BoxRow<D, block>::none();
+            for (std::size_t k = leaf * block; k < std::min(count, (leaf + 1) * block); ++k) {
+                items_[k] = order[k].second;
+                boxes_[leaf].set(k % block, box_of(order[k].second));
+            }
         }
     });
 }
 
 template<int D>
 void BoxTree<D>::build_levels() {
-    const auto group = [](const Array<Box<D>>& parts, std::size_t width) {
-        Array<Box<D>> nodes;
-        nodes.assign(std::max<std::size_t>(1, (parts.size() + width - 1) / width), Box<D>{});
-        for (std::size_t k = 0; k < parts.size(); ++k) {
-            nodes[k / width].include(parts[k]);
-        }
+    const auto nodes_over = [](const auto& rows) {
+        Nodes nodes((rows.size() + fan - 1) / fan);
+        parallel_for(nodes.size(), 1 << 11, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t node = begin; node < end; ++node) {
+                nodes[node] = BoxRow<D, fan>::none();
+                for (std::size_t k = node * fan; k < std::min(rows.size(), (node + 1) * fan); ++k) {
+                    nodes[node].set(k % fan, rows[k].around());
+                }
+            }
+        });
         return nodes;
     };
-    levels_.push_back(group(boxes_, block));
+    levels_.push_back(nodes_over(boxes_));
     while (levels_.back().size() > 1) {
-        levels_.push_back(group(levels_.back(), fan));
+        levels_.push_back(nodes_over(levels_.back()));
     }
 }
 

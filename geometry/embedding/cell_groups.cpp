@@ -22,7 +22,6 @@ template<>
 constexpr auto prism_kinds<3> = std::array<PrismKind, 5>{{{14, 10}, {12, 9}, {10, 9}, {6, 7}, {3, 6}}};
 
 constexpr std::size_t grain = 16'800; ///< cells; whole prisms of each kind
-constexpr std::size_t group_grain = 4096;
 
 /// Distinct vertices, ascending, at most as many as a prism has.
 template<int D>
@@ -57,30 +56,41 @@ private:
         return true;
     }
 
-    std::array<Index, most> vertices_;
+    std::array<Index, most> vertices_{};
     std::size_t size_ = 0;
+};
+
+/// The groups of a range of cells, in order.
+struct GroupsOfPiece {
+    std::vector<std::uint8_t> cells;         ///< of each group; zero for a cell that is not tested
+    std::vector<std::uint8_t> vertex_counts; ///< of those that are not zero
+    std::vector<Index> vertices;
 };
 
 /// Cuts a range of cells into prisms, and into single cells where there are none.
 template<int D>
 class PrismFinder {
 public:
-    PrismFinder(std::span<const Simplex<D>> cells, const std::vector<bool>& test)
-        : cells_{cells}, test_{test} {}
+    PrismFinder(std::span<const Simplex<D>> cells, std::span<const CapOf> caps)
+        : cells_{cells}, caps_{caps} {}
 
-    /// The number of cells of each group in order; zero for a cell that is not tested.
-    std::vector<std::uint8_t> cut(std::size_t begin, std::size_t end) {
-        std::vector<std::uint8_t> counts;
+    GroupsOfPiece cut(std::size_t begin, std::size_t end) {
+        GroupsOfPiece groups;
         for (std::size_t c = begin; c < end;) {
-            const std::size_t count = test_[c] ? prism_at(c, end) : 0;
-            counts.push_back(static_cast<std::uint8_t>(count));
+            const std::size_t count = caps_[c] == CapOf::none ? prism_at(c, end) : 0;
+            groups.cells.push_back(static_cast<std::uint8_t>(count));
+            if (count > 0) {
+                groups.vertex_counts.push_back(static_cast<std::uint8_t>(vertices_.size()));
+                groups.vertices.insert(groups.vertices.end(), vertices_.begin(), vertices_.end());
+            }
             c += std::max<std::size_t>(count, 1);
         }
-        return counts;
+        return groups;
     }
 
 private:
-    /// Starts with the kind found last, since prisms of one kind follow each other.
+    /// The number of cells of the prism there, or 1; leaves their vertices. Starts with the kind found last,
+    /// since prisms of one kind follow each other.
     std::size_t prism_at(std::size_t c, std::size_t end) {
         for (std::size_t turn = 0; turn < prism_kinds<D>.size(); ++turn) {
             const std::size_t kind = (last_ + turn) % prism_kinds<D>.size();
@@ -89,153 +99,175 @@ private:
                 return prism_kinds<D>[kind].cells;
             }
         }
+        vertices_ = {};
+        vertices_.add(cells_[c]);
         return 1;
     }
 
-    bool is_prism(const PrismKind& kind, std::size_t c, std::size_t end) const {
-        VertexSet<D> vertices;
+    bool is_prism(const PrismKind& kind, std::size_t c, std::size_t end) {
+        vertices_ = {};
         for (std::size_t k = c; k < c + kind.cells; ++k) {
-            if (k >= end || !test_[k] || !vertices.add(cells_[k])) {
+            if (k >= end || caps_[k] != CapOf::none || !vertices_.add(cells_[k])) {
                 return false;
             }
         }
-        return vertices.size() == kind.vertices;
+        return vertices_.size() == kind.vertices;
     }
 
     std::span<const Simplex<D>> cells_;
-    const std::vector<bool>& test_;
+    std::span<const CapOf> caps_;
+    VertexSet<D> vertices_;
     std::size_t last_ = 0;
 };
 
-} // namespace
-
 /// Ranges that are cut one by one are counted from the first tested cell, where prisms begin.
 template<int D>
-std::vector<std::uint8_t> group_sizes(std::span<const Simplex<D>> cells, const std::vector<bool>& test) {
-    const auto start = static_cast<std::size_t>(std::find(test.begin(), test.end(), true) - test.begin());
-    std::vector<std::uint8_t> sizes(start, 0);
-    const auto found = parallel_gather<std::uint8_t>(
-        test.size() - start, grain,
-        [&](std::size_t begin, std::size_t end, std::vector<std::uint8_t>& piece) {
-            piece = PrismFinder<D>{cells, test}.cut(start + begin, start + end);
+std::vector<GroupsOfPiece> cut_into_prisms(std::span<const Simplex<D>> cells, std::span<const CapOf> caps,
+                                           std::size_t& start) {
+    start = static_cast<std::size_t>(std::find(caps.begin(), caps.end(), CapOf::none) - caps.begin());
+    return parallel_pieces<GroupsOfPiece>(
+        caps.size() - start, grain, [&](std::size_t begin, std::size_t end, GroupsOfPiece& groups) {
+            groups = PrismFinder<D>{cells, caps}.cut(start + begin, start + end);
         });
-    sizes.insert(sizes.end(), found.begin(), found.end());
+}
+
+} // namespace
+
+template<int D>
+std::vector<std::uint8_t> group_sizes(std::span<const Simplex<D>> cells, std::span<const CapOf> caps) {
+    std::size_t start = 0;
+    const auto pieces = cut_into_prisms<D>(cells, caps, start);
+    std::vector<std::uint8_t> sizes(start, 0);
+    for (const GroupsOfPiece& piece : pieces) {
+        sizes.insert(sizes.end(), piece.cells.begin(), piece.cells.end());
+    }
     return sizes;
 }
 
 template<int D>
 CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
-                          const std::vector<bool>& test)
-    : mesh_{cells, {}, {}, {}, {}, {}} {
-    cells_before_.push_back(0);
-    add_prisms(test);
+                          std::span<const CapOf> caps)
+    : mesh_{cells, {}, {}, {}, {}, {}}, vertex_count_{vertex_count} {
+    find_prisms(caps);
     tested_ = own_;
-    add_touching(test);
-    finish(vertex_count);
+    finish();
 }
 
 template<int D>
-CellGroups<D>::CellGroups(const PartialMesh<D>& mesh, std::size_t vertex_count, const std::vector<bool>& test,
+CellGroups<D>::CellGroups(const PartialMesh<D>& mesh, std::size_t vertex_count, std::span<const CapOf> caps,
                           std::span<const std::uint8_t> ghost_sizes, const PointSet& touching)
-    : mesh_{mesh} {
-    cells_before_.push_back(0);
-    add_prisms(test);
+    : mesh_{mesh}, vertex_count_{vertex_count} {
+    find_prisms(caps);
     std::size_t ghost = mesh.own.size();
     for (const std::uint8_t size : ghost_sizes) {
-        add_group(ghost, size);
+        add_cells(ghost, size);
         ghost += size;
     }
     tested_ = first_cell_.size();
     for (std::size_t k = 0, c = 0; k < touching.size(); ++k) {
         c = k == 0 ? touching.member(0) : touching.next(c);
-        add_group(c, 1);
+        add_cells(c, 1);
     }
     for (; ghost < mesh.size(); ++ghost) {
-        add_group(ghost, 1);
+        add_cells(ghost, 1);
     }
-    finish(vertex_count);
+    finish();
 }
 
 template<int D>
-void CellGroups<D>::finish(std::size_t vertex_count) {
-    first_cell_.push_back(static_cast<Index>(mesh_.size())); // keeps count() simple
-    list_vertices();
-    list_groups(vertex_count);
+void CellGroups<D>::complete(std::span<const Index> at_vertices, std::span<const CapOf> caps) {
+    std::vector<bool> wanted(vertex_count_);
+    for (const Index v : at_vertices) {
+        wanted[v] = true;
+    }
+    const auto find = [&](std::size_t begin, std::size_t end, std::vector<Index>& found) {
+        for (std::size_t c = begin; c < end; ++c) {
+            const Simplex<D>& cell = mesh_.own[c];
+            if (caps[c] != CapOf::none &&
+                std::any_of(cell.begin(), cell.end(), [&](Index v) { return wanted[v]; })) {
+                found.push_back(static_cast<Index>(c));
+            }
+        }
+    };
+    const std::vector<Index> found = parallel_gather<Index>(mesh_.own.size(), grain, find);
+    if (found.empty()) {
+        return;
+    }
+    first_cell_.pop_back();
+    for (const Index c : found) {
+        add_cells(c, 1);
+    }
+    finish();
 }
 
+/// For all groups of the pieces, and the last entries: arrays that grow touch fresh memory again and again.
+template<int D>
+template<class Pieces>
+void CellGroups<D>::make_room(const Pieces& pieces) {
+    std::size_t groups = 1;
+    std::size_t vertices = 0;
+    for (const auto& piece : pieces) {
+        groups += piece.vertex_counts.size();
+        vertices += piece.vertices.size();
+    }
+    first_cell_.reserve(groups);
+    cells_before_.reserve(groups);
+    first_vertex_.reserve(groups);
+    vertices_.reserve(vertices);
+}
+
+/// The group's vertices are the last of all.
 template<int D>
 void CellGroups<D>::add_group(std::size_t first, std::size_t count) {
     first_cell_.push_back(static_cast<Index>(first));
     cells_before_.push_back(cells_before_.back() + count);
+    first_vertex_.push_back(vertices_.size());
+}
+
+/// A group of all the vertices of these cells.
+template<int D>
+void CellGroups<D>::add_cells(std::size_t first, std::size_t count) {
+    VertexSet<D> vertices;
+    for (std::size_t c = first; c < first + count; ++c) {
+        vertices.add(mesh_.cell(static_cast<Index>(c)));
+    }
+    vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
+    add_group(first, count);
 }
 
 template<int D>
-void CellGroups<D>::add_prisms(const std::vector<bool>& test) {
+void CellGroups<D>::find_prisms(std::span<const CapOf> caps) {
+    cells_before_.push_back(0);
+    first_vertex_.push_back(0);
     std::size_t c = 0;
-    for (const std::uint8_t count : group_sizes<D>(mesh_.own, test)) {
-        if (count > 0) {
-            add_group(c, count);
+    auto pieces = cut_into_prisms<D>(mesh_.own, caps, c);
+    make_room(pieces);
+    for (GroupsOfPiece& piece : pieces) {
+        auto vertices = piece.vertices.begin();
+        auto vertex_count = piece.vertex_counts.begin();
+        for (const std::size_t count : piece.cells) {
+            if (count > 0) {
+                const auto end = vertices + *vertex_count++;
+                vertices_.insert(vertices_.end(), vertices, end);
+                vertices = end;
+                add_group(c, count);
+            }
+            c += std::max<std::size_t>(count, 1);
         }
-        c += std::max<std::size_t>(count, 1);
+        piece = {};
     }
     own_ = first_cell_.size();
 }
 
+/// All groups are there: lists those at each vertex.
 template<int D>
-void CellGroups<D>::add_touching(const std::vector<bool>& test) {
-    std::vector<bool> touched;
-    for (std::size_t c = 0; c < mesh_.own.size(); ++c) {
-        for (const Index v : mesh_.own[c]) {
-            if (test[c]) {
-                touched.resize(std::max<std::size_t>(touched.size(), v + std::size_t{1}));
-                touched[v] = true;
-            }
-        }
-    }
-    for (std::size_t c = 0; c < mesh_.own.size(); ++c) {
-        const auto& cell = mesh_.own[c];
-        if (!test[c] && std::any_of(cell.begin(), cell.end(),
-                                    [&](Index v) { return v < touched.size() && touched[v]; })) {
-            add_group(c, 1);
-        }
-    }
-}
-
-template<int D>
-void CellGroups<D>::list_vertices() {
-    const auto vertices_of = [&](std::size_t group) {
-        VertexSet<D> set;
-        for (std::size_t k = 0; k < cell_count(group); ++k) {
-            set.add(mesh_.cell(static_cast<Index>(first_cell_[group] + k)));
-        }
-        return set;
-    };
-    first_vertex_.assign(count() + 1, 0);
-    parallel_for(count(), group_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t g = begin; g < end; ++g) {
-            first_vertex_[g + 1] = vertices_of(g).size();
-        }
-    });
-    for (std::size_t g = 0; g < count(); ++g) {
-        first_vertex_[g + 1] += first_vertex_[g];
-    }
-    vertices_.resize(first_vertex_.back());
-    parallel_for(count(), group_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t g = begin; g < end; ++g) {
-            const VertexSet<D> set = vertices_of(g);
-            std::copy(set.begin(), set.end(),
-                      vertices_.begin() + static_cast<std::ptrdiff_t>(first_vertex_[g]));
-        }
-    });
-}
-
-template<int D>
-void CellGroups<D>::list_groups(std::size_t vertex_count) {
-    first_group_.assign(vertex_count + 1, 0);
+void CellGroups<D>::finish() {
+    first_cell_.push_back(static_cast<Index>(mesh_.size())); // keeps count() simple
+    first_group_.assign(vertex_count_ + 1, 0);
     for (const Index v : vertices_) {
         ++first_group_[v + std::size_t{1}];
     }
-    for (std::size_t v = 0; v < vertex_count; ++v) {
+    for (std::size_t v = 0; v < vertex_count_; ++v) {
         first_group_[v + 1] += first_group_[v];
     }
     groups_.resize(vertices_.size());
@@ -244,7 +276,7 @@ void CellGroups<D>::list_groups(std::size_t vertex_count) {
             groups_[first_group_[v]++] = static_cast<Index>(g);
         }
     }
-    for (std::size_t v = vertex_count; v > 0; --v) { // filling moved each start to its end
+    for (std::size_t v = vertex_count_; v > 0; --v) { // filling moved each start to its end
         first_group_[v] = first_group_[v - 1];
     }
     first_group_[0] = 0;
@@ -257,8 +289,8 @@ std::span<const Index> CellGroups<D>::tested_groups_of(Index vertex) const {
     return all.first(static_cast<std::size_t>(end - all.begin()));
 }
 
-template std::vector<std::uint8_t> group_sizes<2>(std::span<const Simplex<2>>, const std::vector<bool>&);
-template std::vector<std::uint8_t> group_sizes<3>(std::span<const Simplex<3>>, const std::vector<bool>&);
+template std::vector<std::uint8_t> group_sizes<2>(std::span<const Simplex<2>>, std::span<const CapOf>);
+template std::vector<std::uint8_t> group_sizes<3>(std::span<const Simplex<3>>, std::span<const CapOf>);
 template class CellGroups<2>;
 template class CellGroups<3>;
 

@@ -19,20 +19,24 @@ namespace slabhull {
 /// Groups of consecutive cells of a hull: the simplices of a prism if they are consecutive, as in hulls made
 /// by this library and in files of them, else single cells. The grouping affects speed only.
 ///
-/// The first `tested` groups hold the cells to be tested. The other cells that share a vertex with these
-/// follow, one per group.
+/// The first `tested` groups hold the cells to be tested. Others, one cell per group, follow: those that
+/// complete() adds, or that others have sent.
 template<int D>
 class CellGroups {
 public:
     static constexpr std::size_t most_cells = D == 2 ? 4 : 14;
 
-    /// `test`: one flag per cell.
-    CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, const std::vector<bool>& test);
-    /// Those of a mesh with ghosts. `test`: one flag per own cell. `ghost_sizes`: of the groups that the
-    /// first ghosts are in, which are tested, too. Of the own cells that are not, those of `touching` count;
-    /// and so do the other ghosts.
-    CellGroups(const PartialMesh<D>& mesh, std::size_t vertex_count, const std::vector<bool>& test,
+    /// `caps`: of each cell; those in no cap are tested.
+    CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, std::span<const CapOf> caps);
+    /// Those of a mesh with ghosts. `caps`: of the own cells. `ghost_sizes`: of the groups that the first
+    /// ghosts are in, which are tested, too. Of the own cells in caps, those of `touching` count; and so do
+    /// the other ghosts.
+    CellGroups(const PartialMesh<D>& mesh, std::size_t vertex_count, std::span<const CapOf> caps,
                std::span<const std::uint8_t> ghost_sizes, const PointSet& touching);
+
+    /// Adds the cells in caps that are at one of these vertices, so that groups_of() these has all their
+    /// cells. For meshes without ghosts; to be called once.
+    void complete(std::span<const Index> at_vertices, std::span<const CapOf> caps);
 
     /// The tested groups without ghosts, which come first.
     std::size_t own() const { return own_; }
@@ -49,21 +53,23 @@ public:
     std::span<const Index> vertices(std::size_t group) const {
         return {vertices_.data() + first_vertex_[group], first_vertex_[group + 1] - first_vertex_[group]};
     }
-    /// The groups at the vertex, ascending.
+    /// The groups at the vertex, ascending. All cells there are in one only after complete(), or in a mesh
+    /// with ghosts.
     std::span<const Index> groups_of(Index vertex) const {
         return {groups_.data() + first_group_[vertex], first_group_[vertex + 1] - first_group_[vertex]};
     }
     std::span<const Index> tested_groups_of(Index vertex) const;
 
 private:
-    void add_prisms(const std::vector<bool>& test);
-    void add_touching(const std::vector<bool>& test);
+    void find_prisms(std::span<const CapOf> caps);
+    template<class Pieces>
+    void make_room(const Pieces& pieces);
     void add_group(std::size_t first, std::size_t count);
-    void finish(std::size_t vertex_count);
-    void list_vertices();
-    void list_groups(std::size_t vertex_count);
+    void add_cells(std::size_t first, std::size_t count);
+    void finish();
 
     PartialMesh<D> mesh_;
+    std::size_t vertex_count_;
     std::size_t own_ = 0;
     std::size_t tested_ = 0;
     Array<Index> first_cell_;
@@ -76,7 +82,7 @@ private:
 
 /// The numbers of cells of the groups of tested cells, in order; 0 for each cell that is not tested.
 template<int D>
-std::vector<std::uint8_t> group_sizes(std::span<const Simplex<D>> cells, const std::vector<bool>& test);
+std::vector<std::uint8_t> group_sizes(std::span<const Simplex<D>> cells, std::span<const CapOf> caps);
 
 extern template class CellGroups<2>;
 extern template class CellGroups<3>;

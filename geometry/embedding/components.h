@@ -10,14 +10,31 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace slabhull {
 
-/// Signed measure that each component of a boundary encloses with the positions of `surface`: positive for an
-/// outer boundary, negative around a body.
+/// The components of a closed surface, numbered as a Boundary numbers them; made without its half-edges.
 template<int D>
-std::vector<double> enclosed_by_components(const Boundary<D>& boundary, const Surface<D>& surface);
+class FacetComponents {
+public:
+    /// `neighbors`: of the facets. Needs: none is missing.
+    explicit FacetComponents(std::span<const Neighbors<D - 1>> neighbors);
+
+    std::size_t component_count() const { return first_facet_.size(); }
+    Index component(std::size_t facet) const { return component_[facet]; }
+    Index first_facet(std::size_t component) const { return first_facet_[component]; }
+
+private:
+    std::vector<Index> component_;
+    std::vector<Index> first_facet_;
+};
+
+/// Signed measure that each component of a boundary encloses with the positions of `surface`: positive for an
+/// outer boundary, negative around a body. `Parts`: Boundary or FacetComponents.
+template<class Parts, int D>
+std::vector<double> enclosed_by_components(const Parts& parts, const Surface<D>& surface);
 
 namespace detail {
 

@@ -14,10 +14,13 @@
 #include <atomic>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace slabhull {
 
 namespace {
+
+constexpr std::size_t cap_grain = 1 << 14; ///< cells
 
 template<int D>
 Point<D> in_space(const Point<D + 1>& p) {
@@ -48,7 +51,7 @@ public:
 
     bool holds() const {
         std::atomic<bool> all = true;
-        parallel_for(hull_.cells.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        parallel_for(hull_.cells.size(), cap_grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
                 if (hull_.caps[c] == CapOf::none && !face_on_boundary(c)) {
                     all = false;
@@ -123,27 +126,35 @@ bool cap_is_embedded(const CellsInCaps<D>& hull, CapOf cap, double time) {
 
 template<int D>
 std::array<double, 2> time_span(const JoinedSpans<Point<D + 1>>& points, std::span<const Simplex<D>> cells) {
-    std::array<double, 2> times{std::numeric_limits<double>::infinity(),
-                                -std::numeric_limits<double>::infinity()};
-    for (const Simplex<D>& cell : cells) {
-        for (const Index v : cell) {
-            times = {std::min(times[0], points[v][D]), std::max(times[1], points[v][D])};
+    using Span = std::array<double, 2>;
+    constexpr Span none{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    const auto span_of = [&](std::size_t begin, std::size_t end, Span& span) {
+        for (std::size_t c = begin; c < end; ++c) {
+            for (const Index v : cells[c]) {
+                span = {std::min(span[0], points[v][D]), std::max(span[1], points[v][D])};
+            }
         }
+    };
+    Span all = none;
+    for (const Span& piece : parallel_pieces<Span>(cells.size(), cap_grain, span_of, none)) {
+        all = {std::min(all[0], piece[0]), std::max(all[1], piece[1])};
     }
-    return times;
+    return all;
 }
 
 template<int D>
-std::vector<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-                             const std::array<double, 2>& times) {
-    std::vector<CapOf> caps(cells.size(), CapOf::none);
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        const auto all_at = [&](double time) {
-            return std::all_of(cells[c].begin(), cells[c].end(),
-                               [&](Index v) { return points[v][D] == time; });
-        };
-        caps[c] = all_at(times[0]) ? CapOf::first : all_at(times[1]) ? CapOf::last : CapOf::none;
-    }
+Array<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+                       const std::array<double, 2>& times) {
+    Array<CapOf> caps(cells.size());
+    parallel_for(cells.size(), cap_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            const auto all_at = [&](double time) {
+                return std::all_of(cells[c].begin(), cells[c].end(),
+                                   [&](Index v) { return points[v][D] == time; });
+            };
+            caps[c] = all_at(times[0]) ? CapOf::first : all_at(times[1]) ? CapOf::last : CapOf::none;
+        }
+    });
     return caps;
 }
 
@@ -152,7 +163,7 @@ CapSigns signs_of_cap(const CellsInCaps<D>& hull, CapOf cap) {
     std::atomic<bool> positive = false;
     std::atomic<bool> negative = false;
     std::atomic<bool> flat = false;
-    parallel_for(hull.cells.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    parallel_for(hull.cells.size(), cap_grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             if (hull.caps[c] == cap) {
                 const int sign = sign_of<D>(hull.cells[c], hull.points);
@@ -165,16 +176,18 @@ CapSigns signs_of_cap(const CellsInCaps<D>& hull, CapOf cap) {
 
 template<int D>
 Array<Facet<D>> outer_facets(const CellsInCaps<D>& hull, CapOf cap) {
-    Array<Facet<D>> facets;
-    for (std::size_t c = 0; c < hull.cells.size(); ++c) {
-        for (std::size_t i = 0; i <= D && hull.caps[c] == cap; ++i) {
-            const Index across = hull.neighbors[c][i];
-            if (across == no_index || hull.caps[across] != cap) {
-                facets.push_back(outward_facet<D>(hull.cells[c], static_cast<int>(i)));
+    const auto find = [&](std::size_t begin, std::size_t end, std::vector<Facet<D>>& facets) {
+        for (std::size_t c = begin; c < end; ++c) {
+            for (std::size_t i = 0; i <= D && hull.caps[c] == cap; ++i) {
+                const Index across = hull.neighbors[c][i];
+                if (across == no_index || hull.caps[across] != cap) {
+                    facets.push_back(outward_facet<D>(hull.cells[c], static_cast<int>(i)));
+                }
             }
         }
-    }
-    return facets;
+    };
+    const std::vector<Facet<D>> found = parallel_gather<Facet<D>>(hull.cells.size(), cap_grain, find);
+    return {found.begin(), found.end()};
 }
 
 template<int D>
@@ -225,8 +238,8 @@ bool caps_are_embedded(std::span<const Point<D + 1>> points, std::span<const Sim
 }
 
 template std::array<double, 2> time_span<2>(const JoinedSpans<Point<3>>&, std::span<const Simplex<2>>);
-template std::vector<CapOf> find_caps<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
-                                         const std::array<double, 2>&);
+template Array<CapOf> find_caps<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
+                                   const std::array<double, 2>&);
 template bool caps_are_embedded<2>(std::span<const Point<3>>, std::span<const Simplex<2>>,
                                    const AdjacencyView<2>&, std::span<const CapOf>,
                                    const std::array<double, 2>&);
@@ -237,8 +250,8 @@ template std::vector<std::array<Index, 2>> edges_of<2>(std::span<const Facet<2>>
 template bool side_keeps_to<2>(const CellsInCaps<2>&, double, std::span<const Index>,
                                std::span<const std::array<Index, 2>>);
 template std::array<double, 2> time_span<3>(const JoinedSpans<Point<4>>&, std::span<const Simplex<3>>);
-template std::vector<CapOf> find_caps<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
-                                         const std::array<double, 2>&);
+template Array<CapOf> find_caps<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
+                                   const std::array<double, 2>&);
 template bool caps_are_embedded<3>(std::span<const Point<4>>, std::span<const Simplex<3>>,
                                    const AdjacencyView<3>&, std::span<const CapOf>,
                                    const std::array<double, 2>&);

@@ -21,8 +21,8 @@ std::array<double, 2> time_span(const JoinedSpans<Point<D + 1>>& points, std::sp
 
 /// The cap of each cell: all its vertices are at the earliest or at the latest time of the hull, `times`.
 template<int D>
-std::vector<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
-                             const std::array<double, 2>& times);
+Array<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
+                       const std::array<double, 2>& times);
 
 /// Whether neither cap crosses itself or a cell of the side, proven without testing pairs of cells:
 ///

@@ -39,7 +39,7 @@ public:
             require_fans(adjacency);
         }
         require_no_crossings();
-        require_nesting(Boundary<D>{surface_});
+        require_nesting(FacetComponents<D>{adjacency.neighbors});
     }
 
     /// Checks the conditions that depend on positions only.
@@ -69,13 +69,15 @@ private:
     void require_closed(const Adjacency<D - 1>& adjacency) const;
     void require_fans(const Adjacency<D - 1>& adjacency) const;
     void require_no_crossings() const;
-    void require_nesting(const Boundary<D>& boundary) const;
+    template<class Parts>
+    void require_nesting(const Parts& boundary) const;
 
     std::string ridge_in_words(const FacetDefect<D - 1>& defect) const;
-    void judge_component(const Boundary<D>& boundary, Index facet, const std::vector<double>& enclosed,
+    template<class Parts>
+    void judge_component(const Parts& boundary, Index facet, const std::vector<double>& enclosed,
                          int winding) const;
-    std::string whereabouts(const Boundary<D>& boundary, Index part,
-                            const std::vector<double>& enclosed) const;
+    template<class Parts>
+    std::string whereabouts(const Parts& boundary, Index part, const std::vector<double>& enclosed) const;
     template<class Takes>
     std::string extent_in_words(const Takes& takes) const;
 
@@ -247,7 +249,8 @@ void BoundaryInspection<D>::require_no_crossings() const {
 /// The domain must lie on the inner side of each component. Seen from a component, the winding number of the
 /// others must be 1 if it bounds a body, and 0 if it is an outer boundary.
 template<int D>
-void BoundaryInspection<D>::require_nesting(const Boundary<D>& boundary) const {
+template<class Parts>
+void BoundaryInspection<D>::require_nesting(const Parts& boundary) const {
     const std::vector<double> enclosed = enclosed_by_components(boundary, surface_);
     std::optional<BoxTree<D>> tree; // not needed for one component
     for (Index part = 0; part < enclosed.size(); ++part) {
@@ -282,7 +285,8 @@ std::string BoundaryInspection<D>::extent_in_words(const Takes& takes) const {
 
 /// Where a body that is outside the domain is, and what to do about it.
 template<int D>
-std::string BoundaryInspection<D>::whereabouts(const Boundary<D>& boundary, Index part,
+template<class Parts>
+std::string BoundaryInspection<D>::whereabouts(const Parts& boundary, Index part,
                                                const std::vector<double>& enclosed) const {
     const std::string own = extent_in_words([&](Index f) { return boundary.component(f) == part; });
     const std::string outer = extent_in_words([&](Index f) { return enclosed[boundary.component(f)] > 0; });
@@ -294,7 +298,8 @@ std::string BoundaryInspection<D>::whereabouts(const Boundary<D>& boundary, Inde
 
 /// `facet`: the first of the component; `winding`: winding number of the other components around it.
 template<int D>
-void BoundaryInspection<D>::judge_component(const Boundary<D>& boundary, Index facet,
+template<class Parts>
+void BoundaryInspection<D>::judge_component(const Parts& boundary, Index facet,
                                             const std::vector<double>& enclosed, int winding) const {
     const Index part = boundary.component(facet);
     const bool outer = enclosed[part] > 0;

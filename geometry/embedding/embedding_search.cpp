@@ -51,6 +51,7 @@ private:
         for (const Index v : centres_) {
             star_of_[v] = StarState::open;
         }
+        all_.complete_groups(centres_);
         std::erase_if(centres_, [&](Index v) { return !all_.is_complete(v); });
         std::vector<char> proven(centres_.size());
         if (!all_.mesh.own_neighbors.empty()) {
@@ -84,18 +85,28 @@ private:
 
     /// Finds cells without extent, which are not paired but reported. Proven stars have none.
     void find_degenerate() {
-        for (std::size_t g = 0; g < groups_.tested(); ++g) {
-            for (std::size_t k = 0; k < groups_.cell_count(g) && !in_proven_star(g); ++k) {
-                const auto c = static_cast<Index>(groups_.first_cell(g) + k);
-                if (degenerate(corners_among<D>(cells_[c], points_))) {
-                    degenerate_.push_back(c);
-                    if (g < groups_.own()) {
-                        result_.crossings.push_back({c, c, points_[cells_[c][0]]});
+        degenerate_ = degenerate_cells(0, groups_.own());
+        for (const Index c : degenerate_) {
+            result_.crossings.push_back({c, c, points_[cells_[c][0]]});
+        }
+        const std::vector<Index> others = degenerate_cells(groups_.own(), groups_.tested());
+        degenerate_.insert(degenerate_.end(), others.begin(), others.end());
+        std::sort(degenerate_.begin(), degenerate_.end());
+    }
+
+    std::vector<Index> degenerate_cells(std::size_t first_group, std::size_t end_group) const {
+        const auto find = [&](std::size_t begin, std::size_t end, std::vector<Index>& found) {
+            for (std::size_t g = first_group + begin; g < first_group + end; ++g) {
+                const std::size_t cells = in_proven_star(g) ? 0 : groups_.cell_count(g);
+                for (std::size_t k = 0; k < cells; ++k) {
+                    const auto c = static_cast<Index>(groups_.first_cell(g) + k);
+                    if (degenerate(corners_among<D>(cells_[c], points_))) {
+                        found.push_back(c);
                     }
                 }
             }
-        }
-        std::sort(degenerate_.begin(), degenerate_.end());
+        };
+        return parallel_gather<Index>(end_group - first_group, 1 << 12, find);
     }
 
     /// Calls work(item, piece) for all items. The rounds grow, so that a hull with crossings everywhere ends

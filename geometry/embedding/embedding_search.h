@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 
 namespace slabhull {
 
@@ -28,6 +29,8 @@ struct GroupsToPair {
     /// Of a closed and oriented complex, with neighbours; without these, stars stay open.
     PartialMesh<D> mesh;
     const CellGroups<D>& groups;
+    /// Called with the vertices whose stars shall be examined: the groups may want more cells for that.
+    std::function<void(std::span<const Index> centres)> complete_groups;
     /// Whether all cells at a vertex are here, with the whole groups of those tested.
     std::function<bool(Index vertex)> is_complete;
     /// Called with the states of all vertices when stars have been examined: more may be known to be proven.

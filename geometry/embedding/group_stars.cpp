@@ -11,8 +11,10 @@
 #include "slabhull/geometry/measures.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace slabhull {
@@ -65,6 +67,10 @@ private:
         for (const Index g : groups_) {
             first_.push_back(s_.groups_.first_cell(g));
             cells_.push_back(static_cast<Index>(s_.groups_.cell_count(g)));
+        }
+        while (first_.size() % at_once != 0) { // no cell is in these
+            first_.push_back(0);
+            cells_.push_back(0);
         }
     }
 
@@ -125,29 +131,32 @@ private:
         std::uint32_t offset = 1;
         for (std::size_t k = 0; k < groups_.size(); ++k) {
             const auto cells = s_.cells_of(groups_[k]);
+            const auto vertices = s_.groups_.vertices(groups_[k]);
+            const auto own = static_cast<std::uint32_t>(
+                std::lower_bound(vertices.begin(), vertices.end(), v_) - vertices.begin());
             for (std::size_t c = 0; c < cells.size(); ++c) {
                 Corners corners;
+                unsigned opposite = 0; // the facet opposite to v
                 for (std::size_t i = 0; i <= D; ++i) {
                     corners.at[i] = offset + cells[c].corner[i];
+                    opposite |= unsigned{cells[c].corner[i] == own} << i;
                 }
-                if (!is_positive(corners) || !sees_border(first_[k] + c, cells[c].outer, corners)) {
+                const unsigned outer = opposite != 0 ? cells[c].outer & opposite : cells[c].outer;
+                if (!is_positive(corners) || !sees_border(first_[k] + c, outer, corners)) {
                     return false;
                 }
             }
-            offset += static_cast<std::uint32_t>(s_.groups_.vertices(groups_[k]).size());
+            offset += static_cast<std::uint32_t>(vertices.size());
         }
         return true;
     }
 
-    /// Facets at v are never in the border: all cells at v are here.
+    /// `outer`: the facets of a cell that may be in the border. Those at v never are: all cells at v are
+    /// here.
     bool sees_border(std::size_t cell, unsigned outer, const Corners& corners) {
-        const Simplex<D>& vertices = s_.mesh_.cell(static_cast<Index>(cell));
-        const auto own = std::find(vertices.begin(), vertices.end(), v_) - vertices.begin();
-        if (own <= D) {
-            outer &= 1u << own;
-        }
-        for (std::size_t i = 0; i <= D; ++i) {
-            if ((outer >> i & 1u) == 0 || is_here(s_.mesh_.neighbor(static_cast<Index>(cell), i))) {
+        for (; outer != 0; outer &= outer - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(outer));
+            if (is_here(s_.mesh_.neighbor(static_cast<Index>(cell), i))) {
                 continue;
             }
             Corners seen = corners;
@@ -166,11 +175,16 @@ private:
         if (groups_.size() > 64) {
             return is_here_by_search(cell);
         }
-        bool here = false;
-        for (std::size_t k = 0; k < first_.size(); ++k) {
-            here |= cell - first_[k] < cells_[k];
+        using Four = Index __attribute__((vector_size(at_once * sizeof(Index))));
+        Four here{};
+        for (std::size_t k = 0; k < first_.size(); k += at_once) {
+            Four first;
+            Four cells;
+            std::memcpy(&first, &first_[k], sizeof(first));
+            std::memcpy(&cells, &cells_[k], sizeof(cells));
+            here |= static_cast<Four>(cell - first < cells);
         }
-        return here;
+        return (here[0] | here[1] | here[2] | here[3]) != 0;
     }
     bool is_here_by_search(Index cell) const {
         const auto tested = std::lower_bound(groups_.begin(), groups_.end(), s_.groups_.tested());
@@ -180,7 +194,8 @@ private:
             return next != begin &&
                    cell - next[-1] < cells_[static_cast<std::size_t>(next - first_.begin()) - 1];
         };
-        return in(first_.begin(), middle) || in(middle, first_.end());
+        return in(first_.begin(), middle) ||
+               in(middle, first_.begin() + static_cast<std::ptrdiff_t>(groups_.size()));
     }
 
     double orientation(const std::array<std::uint32_t, D + 1>& at) const {
@@ -299,8 +314,10 @@ private:
     const GroupStars<D>& s_;
     Index v_ = 0;
     std::span<const Index> groups_;
-    std::vector<Index> first_; ///< first cell of each group
-    std::vector<Index> cells_; ///< number of cells of each group
+    static constexpr std::size_t at_once = 4;
+
+    std::vector<Index> first_; ///< first cell of each group; then some zeros, up to a multiple of at_once
+    std::vector<Index> cells_; ///< number of cells of each group, and as many zeros
     std::vector<Place> places_;
     std::vector<Corners> border_;
     std::vector<Point<D + 1>> unit_normals_;
@@ -388,9 +405,6 @@ namespace {
 template<int D>
 bool is_covered(const CellGroups<D>& groups, Index v) {
     const auto own = groups.tested_groups_of(v);
-    if (own.size() > 2) {
-        return false; // rare, and not worth the search
-    }
     const auto around = groups.vertices(own.front());
     return std::any_of(around.begin(), around.end(), [&](Index w) {
         const auto other = groups.tested_groups_of(w);

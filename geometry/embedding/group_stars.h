@@ -78,7 +78,8 @@ private:
 };
 
 /// Vertices such that any two tested groups that touch are both at one of these vertices; so are any two
-/// cells of one group.
+/// cells of one group. Of prisms in layers, those of inner levels: around a vertex at the end of the side
+/// are no prisms but those that are also around the one on the next level.
 template<int D>
 std::vector<Index> star_centres(const CellGroups<D>& groups, std::size_t vertex_count);
 

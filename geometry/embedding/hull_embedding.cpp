@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
+#include <cstddef>
+#include <span>
 
 namespace slabhull {
 
@@ -15,24 +16,28 @@ template<int D>
 HullEmbedding<D> examine_embedding(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
                                    const AdjacencyView<D>& adjacency, std::size_t limit) {
     const std::array<double, 2> times = time_span<D>(points, cells);
-    std::vector<CapOf> caps = find_caps<D>(points, cells, times);
+    Array<CapOf> caps = find_caps<D>(points, cells, times);
     const bool caps_proven = caps_are_embedded<D>(points, cells, adjacency, caps, times);
-    std::vector<bool> tested(cells.size());
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        tested[c] = !caps_proven || caps[c] == CapOf::none;
+    if (!caps_proven) { // all cells are taken for the side's, so that they are tested
+        std::fill(caps.begin(), caps.end(), CapOf::none);
     }
-    std::vector<CapOf>{}.swap(caps);
-    const CellGroups<D> groups{cells, points.size(), tested};
+    const auto tested = static_cast<std::size_t>(std::count(caps.begin(), caps.end(), CapOf::none));
+    CellGroups<D> groups{cells, points.size(), caps};
+    const auto complete_groups = [&](std::span<const Index> centres) {
+        groups.complete(centres, caps);
+        Array<CapOf>{}.swap(caps);
+    };
     const std::span<const Neighbors<D>> neighbors =
         adjacency.defects.empty() ? adjacency.neighbors : std::span<const Neighbors<D>>{};
     HullEmbedding<D> result = search_crossings<D>({points,
                                                    {cells, neighbors, {}, {}, {}, {}},
                                                    groups,
+                                                   complete_groups,
                                                    [](Index) { return true; },
                                                    [](Array<StarState>&) {}},
                                                   limit);
     result.caps_proven = caps_proven;
-    result.tested_cells = static_cast<std::size_t>(std::count(tested.begin(), tested.end(), true));
+    result.tested_cells = tested;
     return result;
 }
 

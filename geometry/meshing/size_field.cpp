@@ -47,14 +47,19 @@ private:
     /// Fills the box with this centre and half edge, given the candidates [begin, end) of its parent.
     void fill(Index box, const Point<D>& centre, double half, std::size_t begin, std::size_t end, int depth) {
         const double radius = half * std::sqrt(static_cast<double>(D));
+        const double sway = growth_ * radius;
         const std::size_t best = find_best(centre, begin, end);
-        const std::size_t kept = candidates_.size();
-        if (best == end || !keep_rivals(begin, end, values_[best - begin], growth_ * radius)) {
+        if (best == end || values_[best - begin] > field_.grading_.largest + sway) {
             return; // `largest` is the minimum in the whole box
         }
-        const double here = std::min(values_[best - begin], field_.grading_.largest);
-        const bool alone = candidates_.size() == kept + 1;
-        if (alone || depth == max_depth || 2 * growth_ * radius <= leaf_excess * here) {
+        const double least = values_[best - begin];
+        if (depth == max_depth || 2 * sway <= leaf_excess * std::min(least, field_.grading_.largest)) {
+            field_.boxes_[box].source = candidates_[best].index; // most boxes: their rivals need no list
+            return;
+        }
+        const std::size_t kept = candidates_.size();
+        keep_rivals(begin, end, least, sway);
+        if (candidates_.size() == kept + 1) {
             field_.boxes_[box].source = candidates_[best].index;
         } else {
             split(box, centre, half, kept, depth);
@@ -92,17 +97,15 @@ private:
     }
 
     /// Appends the candidates that may give the minimum in some part of a box across which a spacing varies
-    /// by `sway` either way; false if there is none.
-    bool keep_rivals(std::size_t begin, std::size_t end, double best, double sway) {
+    /// by `sway` either way.
+    void keep_rivals(std::size_t begin, std::size_t end, double best, double sway) {
         const double bound = std::min(best + 2 * sway, field_.grading_.largest + sway);
-        const std::size_t before = candidates_.size();
         for (std::size_t i = begin; i < end; ++i) {
             if (values_[i - begin] <= bound) {
                 const Candidate rival = candidates_[i];
                 candidates_.push_back(rival);
             }
         }
-        return candidates_.size() > before;
     }
 
     /// An excess e over the spacing at a leaf's centre is an excess e / (1 - e / 2) over h(x): here

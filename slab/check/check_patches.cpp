@@ -21,22 +21,29 @@ using TrackSet = std::array<TrackId, D>;
 
 /// The tracks of a cell's vertices, at most D in a prism's cell. `size` receives their number.
 template<int D>
-TrackSet<D> tracks_of(const HullView<D>& view, std::size_t cell, std::size_t& size) {
-    std::array<TrackId, D + 1> tracks{};
-    size = 0;
-    for (const Index v : view.cells()[cell]) {
-        const auto end = tracks.begin() + size;
-        const TrackId track = view.track[v];
-        const auto place = std::lower_bound(tracks.begin(), end, track);
-        if (track >= 0 && (place == end || *place != track)) {
-            std::copy_backward(place, end, end + 1);
-            *place = track;
-            ++size;
+TrackSet<D> tracks_of(const Simplex<D>& cell, const Array<TrackId>& track, std::size_t& size) {
+    std::array<TrackId, D + 1> tracks;
+    for (std::size_t i = 0; i <= D; ++i) {
+        tracks[i] = track[cell[i]];
+        for (std::size_t k = i; k > 0; --k) { // branch-free, other than a search for the place
+            const TrackId low = std::min(tracks[k - 1], tracks[k]);
+            tracks[k] = std::max(tracks[k - 1], tracks[k]);
+            tracks[k - 1] = low;
         }
     }
     TrackSet<D> set;
     set.fill(no_track);
-    std::copy_n(tracks.begin(), std::min<std::size_t>(size, D), set.begin());
+    size = 0;
+    TrackId before = no_track;
+    for (const TrackId one : tracks) {
+        if (one >= 0 && one != before) {
+            if (size < D) {
+                set[size] = one;
+            }
+            ++size;
+            before = one;
+        }
+    }
     return set;
 }
 
@@ -60,11 +67,21 @@ struct FacetPatch {
 template<int D>
 using FacetPatches = std::vector<FacetPatch<D>>;
 
+/// The track of each vertex, to be asked for often: a list in runs would have to be searched.
+template<int D>
+Array<TrackId> all_tracks(const HullView<D>& view) {
+    Array<TrackId> tracks(view.track.size());
+    parallel_for(tracks.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+        view.track.copy(begin, end, tracks.data() + begin);
+    });
+    return tracks;
+}
+
 /// Calls full(claim) for side cells that have all tracks of a facet, and partial(claim) for the others, in
 /// [begin, end). Cells of a side that is not made of prisms may have no claim.
 template<int D, class Full, class Partial>
-void for_each_claim(const HullView<D>& view, std::size_t begin, std::size_t end, const Full& full,
-                    const Partial& partial) {
+void for_each_claim(const HullView<D>& view, const Array<TrackId>& track, std::size_t begin, std::size_t end,
+                    const Full& full, const Partial& partial) {
     std::vector<std::int64_t> patch(end - begin);
     view.hull.patch.fill(begin, end, patch.data());
     for (std::size_t c = begin; c < end; ++c) {
@@ -72,7 +89,7 @@ void for_each_claim(const HullView<D>& view, std::size_t begin, std::size_t end,
             continue; // invalid patch numbers are reported separately
         }
         std::size_t size = 0;
-        const TrackSet<D> tracks = tracks_of(view, c, size);
+        const TrackSet<D> tracks = tracks_of<D>(view.cells()[c], track, size);
         const PatchClaim<D> claim{tracks, static_cast<PatchNumber>(patch[c - begin]), static_cast<Index>(c)};
         if (size == D) {
             full(claim);
@@ -84,41 +101,85 @@ void for_each_claim(const HullView<D>& view, std::size_t begin, std::size_t end,
 
 constexpr std::size_t cells_per_reading = 1 << 14;
 
-/// The patches of facets, without the claiming cells. Goes block by block to save memory: many layers repeat
-/// the claim for one facet.
+/// What cells claim of facets, or of parts of them, without the claiming cells; each once, sorted.
 template<int D>
-FacetPatches<D> patches_of_facets(const HullView<D>& view) {
+struct DistinctClaims {
+    FacetPatches<D> facets;
+    FacetPatches<D> parts;
+
+    void add(const DistinctClaims& more) {
+        facets.insert(facets.end(), more.facets.begin(), more.facets.end());
+        parts.insert(parts.end(), more.parts.begin(), more.parts.end());
+    }
+    void sort() {
+        sort_out(facets);
+        sort_out(parts);
+    }
+};
+
+/// Tells which facets were seen lately, as consecutive cells have the same few.
+template<int D>
+class SeenFacets {
+public:
+    SeenFacets() : seen_(1 << 10) {}
+
+    /// False when it was seen before. May be true again later.
+    bool is_new(const FacetPatch<D>& facet) {
+        FacetPatch<D>& seen = seen_[hash(facet) % seen_.size()];
+        if (seen == facet) {
+            return false;
+        }
+        seen = facet;
+        return true;
+    }
+
+private:
+    static std::size_t hash(const FacetPatch<D>& facet) {
+        auto sum = static_cast<std::uint64_t>(facet.patch);
+        for (const TrackId track : facet.tracks) {
+            sum = combined_hash(sum, static_cast<std::uint64_t>(track));
+        }
+        return sum;
+    }
+
+    FacetPatches<D> seen_; ///< starts with patch 0, which no claim has
+};
+
+/// Goes block by block to save memory: many layers repeat the claim for one facet.
+template<int D>
+DistinctClaims<D> distinct_claims(const HullView<D>& view, const Array<TrackId>& track) {
     constexpr std::size_t block = std::size_t{1} << 20;
-    FacetPatches<D> all;
+    DistinctClaims<D> all;
     for (std::size_t first = 0; first < view.cells().size(); first += block) {
         const std::size_t count = std::min(block, view.cells().size() - first);
-        const auto patches_of_piece = [&](std::size_t begin, std::size_t end, FacetPatches<D>& piece) {
-            for_each_claim(
-                view, first + begin, first + end,
-                [&](const PatchClaim<D>& claim) { // a prism repeats its claim
-                    if (const FacetPatch<D> facet{claim.tracks, claim.patch};
-                        piece.empty() || piece.back() != facet) {
-                        piece.push_back(facet);
+        const auto claims_of_piece = [&](std::size_t begin, std::size_t end, DistinctClaims<D>& piece) {
+            SeenFacets<D> seen;
+            const auto take_to = [&seen](FacetPatches<D>& list) {
+                return [&seen, &list](const PatchClaim<D>& claim) {
+                    if (const FacetPatch<D> facet{claim.tracks, claim.patch}; seen.is_new(facet)) {
+                        list.push_back(facet);
                     }
-                },
-                [](const PatchClaim<D>&) {});
-            sort_out(piece);
+                };
+            };
+            for_each_claim(view, track, first + begin, first + end, take_to(piece.facets),
+                           take_to(piece.parts));
+            piece.sort();
         };
-        const auto found = parallel_gather<FacetPatch<D>>(count, cells_per_reading, patches_of_piece);
-        if (!found.empty()) {
-            all.insert(all.end(), found.begin(), found.end());
-            sort_out(all);
+        for (const DistinctClaims<D>& piece :
+             parallel_pieces<DistinctClaims<D>>(count, cells_per_reading, claims_of_piece)) {
+            all.add(piece);
         }
+        all.sort();
     }
     return all;
 }
 
 /// All claims about whole facets, sorted; needed only if a facet has different patches.
 template<int D>
-std::vector<PatchClaim<D>> full_claims(const HullView<D>& view) {
+std::vector<PatchClaim<D>> full_claims(const HullView<D>& view, const Array<TrackId>& track) {
     std::vector<PatchClaim<D>> claims;
     for_each_claim(
-        view, 0, view.cells().size(), [&](const PatchClaim<D>& claim) { claims.push_back(claim); },
+        view, track, 0, view.cells().size(), [&](const PatchClaim<D>& claim) { claims.push_back(claim); },
         [](const PatchClaim<D>&) {});
     std::sort(claims.begin(), claims.end());
     return claims;
@@ -136,8 +197,8 @@ void report_mismatches(std::span<const PatchClaim<D>> column, Findings& findings
         cells.push_back(claim.cell);
     }
     std::string tracks;
-    for (const TrackId track : column.front().tracks) {
-        tracks += fmt::format("{}{}", tracks.empty() ? "" : ", ", track);
+    for (const TrackId one : column.front().tracks) {
+        tracks += fmt::format("{}{}", tracks.empty() ? "" : ", ", one);
     }
     std::vector<Entity> entities = findings.cell_entities(cells);
     const std::string text = fmt::format(
@@ -168,51 +229,24 @@ FacetPatches<D> patches_of_parts(const FacetPatches<D>& facets) {
     return parts;
 }
 
-/// Looks up patches of facets. Caches hits, as consecutive cells ask for the same few.
+/// Cells whose tracks are part of no facet of their patch, ascending; needed only if there are any.
 template<int D>
-class FacetPatchFinder {
-public:
-    explicit FacetPatchFinder(const FacetPatches<D>& all) : all_{all}, seen_(1 << 10) {}
-
-    bool has(const FacetPatch<D>& wanted) {
-        FacetPatch<D>& seen = seen_[hash(wanted) % seen_.size()];
-        if (seen != wanted) {
-            if (!std::binary_search(all_.begin(), all_.end(), wanted)) {
-                return false;
+std::vector<PatchClaim<D>> partial_claims_without(const HullView<D>& view, const Array<TrackId>& track,
+                                                  const FacetPatches<D>& parts) {
+    std::vector<PatchClaim<D>> without;
+    for_each_claim(
+        view, track, 0, view.cells().size(), [](const PatchClaim<D>&) {},
+        [&](const PatchClaim<D>& claim) {
+            if (!std::binary_search(parts.begin(), parts.end(), FacetPatch<D>{claim.tracks, claim.patch})) {
+                without.push_back(claim);
             }
-            seen = wanted;
-        }
-        return true;
-    }
-
-private:
-    static std::size_t hash(const FacetPatch<D>& facet) {
-        auto sum = static_cast<std::uint64_t>(facet.patch);
-        for (const TrackId track : facet.tracks) {
-            sum = combined_hash(sum, static_cast<std::uint64_t>(track));
-        }
-        return sum;
-    }
-
-    const FacetPatches<D>& all_;
-    FacetPatches<D> seen_; ///< starts with patch 0, which is never looked up
-};
-
-/// Cells whose tracks are part of no facet of their patch, ascending.
-template<int D>
-std::vector<PatchClaim<D>> partial_claims_without(const HullView<D>& view, const FacetPatches<D>& parts) {
-    return parallel_gather<PatchClaim<D>>(
-        view.cells().size(), cells_per_reading,
-        [&](std::size_t begin, std::size_t end, std::vector<PatchClaim<D>>& without) {
-            FacetPatchFinder<D> finder{parts};
-            for_each_claim(
-                view, begin, end, [](const PatchClaim<D>&) {},
-                [&](const PatchClaim<D>& claim) {
-                    if (!finder.has({claim.tracks, claim.patch})) {
-                        without.push_back(claim);
-                    }
-                });
         });
+    return without;
+}
+
+template<int D>
+bool has_all(const FacetPatches<D>& parts, const FacetPatches<D>& wanted) {
+    return std::includes(parts.begin(), parts.end(), wanted.begin(), wanted.end());
 }
 
 /// How often each patch is claimed for side cells, and the first such cell.
@@ -278,20 +312,26 @@ std::vector<PatchCount> check_patches(const HullView<D>& view, Findings& finding
 
 template<int D>
 void check_patch_columns(const HullView<D>& view, Findings& findings) {
-    const FacetPatches<D> facets = patches_of_facets(view);
+    const Array<TrackId> track = all_tracks(view);
+    const DistinctClaims<D> claims = distinct_claims(view, track);
+    const FacetPatches<D>& facets = claims.facets;
     const auto same_facet = [](const FacetPatch<D>& a, const FacetPatch<D>& b) {
         return a.tracks == b.tracks;
     };
     if (std::adjacent_find(facets.begin(), facets.end(), same_facet) != facets.end()) {
-        const std::vector<PatchClaim<D>> claims = full_claims(view);
-        for (auto run = claims.begin(); run != claims.end();) {
+        const std::vector<PatchClaim<D>> full = full_claims(view, track);
+        for (auto run = full.begin(); run != full.end();) {
             const auto end = std::find_if(
-                run, claims.end(), [&](const PatchClaim<D>& claim) { return claim.tracks != run->tracks; });
+                run, full.end(), [&](const PatchClaim<D>& claim) { return claim.tracks != run->tracks; });
             report_mismatches<D>({run, end}, findings);
             run = end;
         }
     }
-    for (const PatchClaim<D>& claim : partial_claims_without<D>(view, patches_of_parts<D>(facets))) {
+    const FacetPatches<D> parts = patches_of_parts<D>(facets);
+    if (has_all<D>(parts, claims.parts)) {
+        return;
+    }
+    for (const PatchClaim<D>& claim : partial_claims_without<D>(view, track, parts)) {
         findings.cell(Defect::patch_mismatch, claim.cell,
                       fmt::format("in patch {}, which no boundary facet below it has", claim.patch));
     }
@@ -299,14 +339,14 @@ void check_patch_columns(const HullView<D>& view, Findings& findings) {
 
 template<int D>
 bool patch_columns_agree(const HullView<D>& view, Communicator& ranks) {
-    const FacetPatches<D> mine = patches_of_facets(view);
-    const Array<FacetPatch<D>> all = joined(ranks.all_gather<FacetPatch<D>>(mine));
+    const DistinctClaims<D> mine = distinct_claims(view, all_tracks(view));
+    const Array<FacetPatch<D>> all = joined(ranks.all_gather<FacetPatch<D>>(mine.facets));
     FacetPatches<D> facets(all.begin(), all.end());
     sort_out(facets);
     const bool differ = std::adjacent_find(facets.begin(), facets.end(), [](const auto& a, const auto& b) {
                             return a.tracks == b.tracks;
                         }) != facets.end();
-    const bool agrees = !differ && partial_claims_without<D>(view, patches_of_parts<D>(facets)).empty();
+    const bool agrees = !differ && has_all<D>(patches_of_parts<D>(facets), mine.parts);
     return ranks.min(agrees ? 1 : 0) == 1;
 }
 

@@ -51,7 +51,11 @@ public:
         return ranks_.min(sound ? 1 : 0) == 1;
     }
 
-    CapOf cap_of(std::size_t cell) const { return caps_[cell]; }
+    /// The cap of each cell of the part. Gives the list up.
+    Array<CapOf> take_caps() {
+        caps_.resize(part_.cells.size());
+        return std::move(caps_);
+    }
 
 private:
     /// The boundary of a cap of the whole hull.
@@ -139,7 +143,7 @@ private:
     const HullPart<D>& part_;
     Communicator& ranks_;
     std::array<double, 2> times_;
-    std::vector<CapOf> caps_; ///< of the part's cells, then of those outside
+    Array<CapOf> caps_; ///< of the part's cells, then of those outside
 };
 
 /// A cell that is sent to another rank, in the hull's numbers.
@@ -181,10 +185,10 @@ struct GhostsOfSearch {
 template<int D>
 class SearchAssembly {
 public:
-    SearchAssembly(const HullPart<D>& part, Communicator& ranks, const std::vector<bool>& tested)
-        : part_{part}, ranks_{ranks}, tested_{tested}, touching_{part.cells.size()},
-          sizes_{group_sizes<D>(part.cells, tested)}, owners_{lowest_at_points<std::int32_t>(
-                                                          part, ranks, ranks_of_tested_points())} {}
+    SearchAssembly(const HullPart<D>& part, Communicator& ranks, std::span<const CapOf> caps)
+        : part_{part}, ranks_{ranks}, caps_{caps}, touching_{part.cells.size()},
+          sizes_{group_sizes<D>(part.cells, caps)}, owners_{lowest_at_points<std::int32_t>(
+                                                        part, ranks, ranks_of_tested_points())} {}
 
     /// The lowest rank that has a tested cell at each point; no_rank where none has.
     const Array<std::int32_t>& owners() const { return owners_; }
@@ -207,12 +211,14 @@ public:
     }
 
 private:
+    bool is_tested(std::size_t cell) const { return caps_[cell] == CapOf::none; }
+
     Array<std::int32_t> ranks_of_tested_points() const {
         Array<std::int32_t> result;
         result.assign(part_.points.size(), no_rank);
-        for (std::size_t c = 0; c < tested_.size(); ++c) {
+        for (std::size_t c = 0; c < caps_.size(); ++c) {
             for (const Index v : part_.cells[c]) {
-                result[v] = tested_[c] ? ranks_.rank() : result[v];
+                result[v] = is_tested(c) ? ranks_.rank() : result[v];
             }
         }
         return result;
@@ -300,8 +306,8 @@ private:
 
     /// Cells that are not tested go to the owners of their vertices, which prove the stars.
     void list_touching_cells(std::vector<SentCells<D>>& to) {
-        for (std::size_t c = 0; c < tested_.size(); ++c) {
-            if (tested_[c]) {
+        for (std::size_t c = 0; c < caps_.size(); ++c) {
+            if (is_tested(c)) {
                 continue;
             }
             std::array<std::int32_t, D + 1> owner;
@@ -418,7 +424,7 @@ private:
 
     const HullPart<D>& part_;
     Communicator& ranks_;
-    const std::vector<bool>& tested_; ///< of each cell of the part
+    std::span<const CapOf> caps_; ///< of the cells of the part; those in none are tested
     PointSet touching_;
     std::vector<std::uint8_t> sizes_; ///< of groups of own cells, see group_sizes()
     Array<std::int32_t> owners_;
@@ -434,34 +440,37 @@ public:
 
     PartsEmbedding<D> run() {
         PartsEmbedding<D> result;
-        const std::vector<bool> tested = select(result.all);
-        SearchAssembly<D> assembly{part_, ranks_, tested};
+        const Array<CapOf> caps = unproven_to_none(result.all);
+        SearchAssembly<D> assembly{part_, ranks_, caps};
         const GhostsOfSearch<D> ghosts = assembly.run();
         const PartialMesh<D> mesh{part_.cells,  part_.neighbors,  ghosts.outside,
                                   ghosts.cells, ghosts.neighbors, {}};
         const JoinedSpans<Point<D + 1>> points{part_.points, ghosts.points};
-        const CellGroups<D> groups{mesh, points.size(), tested, ghosts.sizes, assembly.touching()};
+        const CellGroups<D> groups{mesh, points.size(), caps, ghosts.sizes, assembly.touching()};
         const auto is_complete = [&](Index v) {
             return v < part_.points.size() && assembly.owners()[v] == ranks_.rank();
         };
-        const HullEmbedding<D> own = search_crossings<D>(
-            {points, mesh, groups, is_complete, [&](Array<StarState>& stars) { complete_stars_of(stars); }},
-            limit_);
+        const HullEmbedding<D> own =
+            search_crossings<D>({points, mesh, groups, [](std::span<const Index>) {}, is_complete,
+                                 [&](Array<StarState>& stars) { complete_stars_of(stars); }},
+                                limit_);
         reduce(own, mesh, points, assembly, result);
         return result;
     }
 
 private:
-    std::vector<bool> select(HullEmbedding<D>& all) const {
-        const CapsOfParts<D> caps{part_, ranks_};
-        all.caps_proven = caps.are_embedded();
-        std::vector<bool> tested(part_.cells.size());
-        for (std::size_t c = 0; c < tested.size(); ++c) {
-            tested[c] = !all.caps_proven || caps.cap_of(c) == CapOf::none;
+    /// The cap of each cell, if both are proven to be embedded; else all cells are taken for the side's, so
+    /// that they are tested.
+    Array<CapOf> unproven_to_none(HullEmbedding<D>& all) const {
+        CapsOfParts<D> proof{part_, ranks_};
+        all.caps_proven = proof.are_embedded();
+        Array<CapOf> caps = proof.take_caps();
+        if (!all.caps_proven) {
+            std::fill(caps.begin(), caps.end(), CapOf::none);
         }
         all.tested_cells =
-            ranks_.sum(static_cast<std::size_t>(std::count(tested.begin(), tested.end(), true)));
-        return tested;
+            ranks_.sum(static_cast<std::size_t>(std::count(caps.begin(), caps.end(), CapOf::none)));
+        return caps;
     }
 
     /// Tells the other ranks at a vertex that its star is proven.

@@ -76,7 +76,9 @@ public:
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
     /// Cost: logarithmic in the number of runs that are near.
-    std::int64_t operator[](std::size_t at) const;
+    std::int64_t operator[](std::size_t at) const {
+        return !narrow_.empty() ? narrow_[at] : !wide_.empty() ? wide_[at] : run_of(at).at(at);
+    }
     std::int64_t at(std::size_t place) const;
     std::int64_t back() const { return (*this)[size_ - 1]; }
     Iterator begin() const { return {this, 0}; }
@@ -101,8 +103,18 @@ private:
         }
     };
 
-    /// The run that holds the integer at a place.
-    const Run& run_of(std::size_t at) const;
+    /// The run that holds the integer at a place. Most blocks have one run only, or the start of a second.
+    const Run& run_of(std::size_t at) const {
+        const std::size_t b = at / block;
+        const Run* const first = runs_.data() + run_at_block_[b];
+        const Run* const last =
+            runs_.data() + (b + 1 < run_at_block_.size() ? run_at_block_[b + 1] : runs_.size() - 1);
+        if (last - first > 1) {
+            return search_run(first, last, at);
+        }
+        return at < last->begin ? *first : *last;
+    }
+    static const Run& search_run(const Run* first, const Run* last, std::size_t at);
     bool in_runs() const { return narrow_.empty() && wide_.empty(); }
     bool extends_last_run(std::int64_t value);
     void give_up_runs();
