@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What scripts/test.sh leaves out, by name or all:
 #   sanitizers   all tests but those labelled "large", under AddressSanitizer and UndefinedBehaviorSanitizer
+#   long         the tests labelled "long", of the release preset: many rounds of what shorter tests do, too
 #   threads      the tests labelled "parallel", under ThreadSanitizer
 #   lint         clang-tidy over all sources, by .clang-tidy
 #   docs         Doxygen over the public headers, and the documentation site; warnings are errors, and links lead somewhere
@@ -13,6 +14,7 @@ run_tests() { # PRESET [options of ctest]
     ctest --test-dir "build/$1" --no-tests=error --output-on-failure -j $(($(nproc) + 1)) "${@:2}"
 }
 check_sanitizers() { run_tests dev -LE large; }
+check_long() { run_tests release -L long; }
 check_threads() { run_tests tsan -L parallel; }
 check_lint() { scripts/lint.sh; }
 check_docs() {
@@ -21,7 +23,7 @@ check_docs() {
 }
 
 checks=("$@")
-((${#checks[@]})) || checks=(sanitizers threads lint docs)
+((${#checks[@]})) || checks=(sanitizers long threads lint docs)
 for check in "${checks[@]}"; do
     declare -F "check_$check" >/dev/null || { echo "check.sh: there is no check \"$check\"" >&2; exit 2; }
 done
