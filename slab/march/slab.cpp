@@ -134,7 +134,7 @@ std::optional<std::size_t> enough_layers(const Boundary<D>& boundary, const Spat
     }
     try {
         return sweep_in_layers<D>(boundary, cap, settings.motions, settings.motion_start,
-                                  {times.front(), times.back()}, settings.trajectory, options)
+                                  {times.front(), times.back()}, settings.trajectory, options, settings.ranks)
             .fit.layers;
     } catch (const GeometryError&) {
         return std::nullopt;
@@ -177,9 +177,9 @@ MeasuredSweep<D> sweep_slab(const Boundary<D>& boundary, const SpatialMesh<D>& c
     MeasuredSweep<D> swept =
         settings.layers.automatic
             ? sweep_in_layers<D>(boundary, cap, settings.motions, settings.motion_start, {times[0], times[1]},
-                                 settings.trajectory, settings.layers)
+                                 settings.trajectory, settings.layers, settings.ranks)
             : sweep_measured<D>(boundary, cap, settings.motions, settings.motion_start, std::move(times),
-                                settings.trajectory, settings.layers);
+                                settings.trajectory, settings.layers, settings.ranks);
     require_attainable_side<D>(boundary, swept.sweep.layers(), settings.side.split);
     enough.reset(); // of an attempt with fewer layers
     if (!swept.fit.sound() && settings.layers.suggest) {
@@ -220,7 +220,8 @@ MeasuredSweep<D> checked_sweep(const Boundary<D>& boundary, const SpatialMesh<D>
     MeasuredSweep<D> swept = clock.run(
         "trajectories", [&] { return sweep_slab(boundary, cap, std::move(times), settings, enough); });
     clock.run(boundary_check_stage, [&] {
-        require_embedded_levels<D>(swept.sweep, settings.motions, settings.motion_start, settings.trajectory);
+        require_embedded_levels<D>(swept.sweep, settings.motions, settings.motion_start, settings.trajectory,
+                                   settings.ranks);
     });
     return swept;
 }

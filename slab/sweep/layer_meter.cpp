@@ -251,6 +251,11 @@ void LayerMeter<D>::measure(const Array<Point<D>>& start, const Array<Point<D>>&
 }
 
 template<int D>
+void LayerMeter<D>::pass(const Array<Point<D>>& end) {
+    edges_ = boundary_.mean_edges(end);
+}
+
+template<int D>
 void LayerMeter<D>::measure_deviations(const Layer& layer, const Sample& before, const Sample& after) {
     const double probe = before.time + probe_at * (after.time - before.time);
     const std::vector<Group>& groups = mover_.groups();

@@ -21,10 +21,13 @@ public:
     LayerMeter(BoundaryMover<D>& mover, const Sweep<D>& sweep, const LayerOptions& options,
                std::size_t layers, double begin, double end);
 
-    /// Measures a layer in which the motions take vertices from `start` to `end`.
+    /// Measures a layer in which the motions take vertices from `start` to `end`. Layers come one after the
+    /// other.
     void measure(const Array<Point<D>>& start, const Array<Point<D>>& end, double from, double to);
+    /// Instead of measuring the layer before the first that is measured: `end` as there.
+    void pass(const Array<Point<D>>& end);
 
-    /// The fit over all layers so far.
+    /// The fit over the layers measured so far.
     const LayerFit& fit() const { return fit_; }
 
 private:

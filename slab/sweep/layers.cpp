@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/layers.h"
 
+#include "core/pieces.h"
 #include "slab/sweep/layer_meter.h"
 #include "slab/sweep/sweep_start.h"
+#include "slabhull/core/communicator.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -23,6 +27,43 @@ constexpr double most_growth = 8;
 /// A sweep that needs this many times more layers is abandoned at once.
 constexpr double hopeless = 2;
 
+/// How far a sweep has come: its end, or where it was given up.
+struct SweepEnd {
+    enum Step : std::size_t { moving, measuring, projecting };
+    std::array<std::size_t, 2> at{}; ///< the layer, and the step in it
+    std::exception_ptr error{};
+};
+
+/// The larger values of two fits, of which `later` is of later layers.
+void take_in(const LayerFit& later, LayerFit& fit) {
+    fit.deviation = std::max(fit.deviation, later.deviation);
+    fit.turn = std::max(fit.turn, later.turn);
+    if (later.growth > fit.growth) {
+        fit.growth = later.growth;
+        fit.patch = later.patch;
+        fit.time = later.time;
+    }
+}
+
+/// What one process would have found, that had measured all layers one after the other: where several ranks
+/// gave up, the earliest step counts, with its error if it has one, and no later layer.
+LayerFit fit_of_all(const LayerFit& mine, const SweepEnd& end, Communicator& ranks) {
+    const auto ends = ranks.gather(end.at);
+    const auto fits = ranks.gather(mine);
+    const auto first = std::min_element(ends.begin(), ends.end());
+    together(ranks, [&] {
+        if (end.error && end.at == *first) {
+            std::rethrow_exception(end.error);
+        }
+    });
+    const bool given_up = std::any_of(ends.begin(), ends.end(), [&](const auto& at) { return at != *first; });
+    const std::ptrdiff_t last = given_up ? first - ends.begin() + 1 : std::ssize(ends);
+    LayerFit fit = fits.front();
+    std::for_each(fits.begin() + 1, fits.begin() + last,
+                  [&](const LayerFit& of_rank) { take_in(of_rank, fit); });
+    return fit;
+}
+
 template<int D>
 struct SweepTask {
     const Boundary<D>& boundary;
@@ -31,26 +72,58 @@ struct SweepTask {
     double motion_start;
     const TrajectoryOptions& trajectory;
     const LayerOptions& options;
+    Communicator* ranks;
 
     MeasuredSweep<D> run(std::vector<double> times, bool to_the_end) const {
         MeasuredSweep<D> result{started_sweep(boundary, cap, std::move(times)), {}};
+        SoleRank alone;
+        Communicator& all = ranks != nullptr ? *ranks : alone;
+        SweepEnd end;
+        try {
+            sweep_through(result, to_the_end, all, end);
+        } catch (const GeometryError&) {
+            end.error = std::current_exception();
+        }
+        result.fit = fit_of_all(result.fit, end, all);
+        return result;
+    }
+
+private:
+    /// Sweeps the boundary through all levels, and measures this rank's layers.
+    void sweep_through(MeasuredSweep<D>& result, bool to_the_end, const Communicator& all,
+                       SweepEnd& end) const {
         Sweep<D>& sweep = result.sweep;
         BoundaryMover<D> mover{sweep, motions, motion_start, trajectory};
         LayerMeter<D> meter{mover, sweep, options, sweep.layers(), sweep.times.front(), sweep.times.back()};
-        for (std::size_t level = 1; level < sweep.times.size(); ++level) {
-            const double from = sweep.times[level - 1];
-            const double to = sweep.times[level];
+        result.fit = meter.fit();
+        const std::array<std::size_t, 2> measured = layers_of(all, sweep.layers());
+        for (std::size_t layer = 0; layer < sweep.layers(); ++layer) {
+            const double from = sweep.times[layer];
+            const double to = sweep.times[layer + 1];
+            end.at = {layer, SweepEnd::moving};
             Array<Point<D>> places = mover.drift(sweep.positions.back(), from, to);
-            meter.measure(sweep.positions.back(), places, from, to);
-            if (!to_the_end && meter.fit().growth >= hopeless) {
-                break;
+            end.at = {layer, SweepEnd::measuring};
+            if (measured[0] <= layer && layer < measured[1]) {
+                meter.measure(sweep.positions.back(), places, from, to);
+                result.fit = meter.fit();
+                if (!to_the_end && result.fit.growth >= hopeless) {
+                    return;
+                }
+            } else if (layer + 1 == measured[0]) {
+                meter.pass(places);
             }
+            end.at = {layer, SweepEnd::projecting};
             mover.project(places, to);
             sweep.positions.push_back(std::move(places));
         }
         sweep.projected = mover.projected();
-        result.fit = meter.fit();
-        return result;
+        end.at = {sweep.layers(), SweepEnd::moving};
+    }
+
+    static std::array<std::size_t, 2> layers_of(const Communicator& all, std::size_t layers) {
+        const auto rank = static_cast<std::size_t>(all.rank());
+        const auto size = static_cast<std::size_t>(all.size());
+        return {begin_of_part(layers, rank, size), begin_of_part(layers, rank + 1, size)};
     }
 };
 
@@ -135,35 +208,35 @@ template<int D>
 MeasuredSweep<D> sweep_measured(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
                                 const PatchMotions<D>& motions, double motion_start,
                                 std::vector<double> times, const TrajectoryOptions& trajectory,
-                                const LayerOptions& options) {
+                                const LayerOptions& options, Communicator* ranks) {
     require_sense(options);
-    return SweepTask<D>{boundary, cap, motions, motion_start, trajectory, options}.run(std::move(times),
-                                                                                       true);
+    return SweepTask<D>{boundary, cap, motions, motion_start, trajectory, options, ranks}.run(
+        std::move(times), true);
 }
 
 template<int D>
 MeasuredSweep<D> sweep_in_layers(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
                                  const PatchMotions<D>& motions, double motion_start,
                                  std::array<double, 2> time, const TrajectoryOptions& trajectory,
-                                 const LayerOptions& options) {
+                                 const LayerOptions& options, Communicator* ranks) {
     require_sense(options);
     LayerOptions automatic = options;
     automatic.automatic = true;
-    const SweepTask<D> task{boundary, cap, motions, motion_start, trajectory, automatic};
+    const SweepTask<D> task{boundary, cap, motions, motion_start, trajectory, automatic, ranks};
     return LayerSearch<D>{task, time}.run();
 }
 
 template MeasuredSweep<2> sweep_measured<2>(const Boundary<2>&, const SpatialMesh<2>&, const PatchMotions<2>&,
                                             double, std::vector<double>, const TrajectoryOptions&,
-                                            const LayerOptions&);
+                                            const LayerOptions&, Communicator*);
 template MeasuredSweep<3> sweep_measured<3>(const Boundary<3>&, const SpatialMesh<3>&, const PatchMotions<3>&,
                                             double, std::vector<double>, const TrajectoryOptions&,
-                                            const LayerOptions&);
+                                            const LayerOptions&, Communicator*);
 template MeasuredSweep<2> sweep_in_layers<2>(const Boundary<2>&, const SpatialMesh<2>&,
                                              const PatchMotions<2>&, double, std::array<double, 2>,
-                                             const TrajectoryOptions&, const LayerOptions&);
+                                             const TrajectoryOptions&, const LayerOptions&, Communicator*);
 template MeasuredSweep<3> sweep_in_layers<3>(const Boundary<3>&, const SpatialMesh<3>&,
                                              const PatchMotions<3>&, double, std::array<double, 2>,
-                                             const TrajectoryOptions&, const LayerOptions&);
+                                             const TrajectoryOptions&, const LayerOptions&, Communicator*);
 
 } // namespace slabhull

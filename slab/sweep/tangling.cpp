@@ -2,7 +2,9 @@
 #include "slabhull/slab/tangling.h"
 
 #include "core/listed.h"
+#include "core/pieces.h"
 #include "slab/sweep/boundary_mover.h"
+#include "slabhull/core/communicator.h"
 #include "slabhull/geometry/embedding.h"
 
 #include <fmt/format.h>
@@ -103,10 +105,10 @@ std::string crossings_in_words(const Surface<D>& surface, double time) {
 template<int D>
 class Bisection {
 public:
-    Bisection(const Sweep<D>& sweep, BoundaryMover<D>& mover, std::size_t bad_level, GeometryError fault)
+    Bisection(const Sweep<D>& sweep, BoundaryMover<D>& mover, std::size_t bad_level)
         : sweep_{sweep}, mover_{mover}, good_places_{sweep.positions[bad_level - 1]},
           bad_places_{sweep.positions[bad_level]}, good_{sweep.times[bad_level - 1]},
-          bad_{sweep.times[bad_level]}, fault_{std::move(fault)} {}
+          bad_{sweep.times[bad_level]}, fault_{fault_of<D>(sweep.boundary, at(bad_places_), bad_).value()} {}
 
     [[noreturn]] void run() {
         const double begin = sweep_.times.front();
@@ -149,22 +151,35 @@ private:
     GeometryError fault_; ///< at bad_
 };
 
+/// The first level that is at fault, or the number of levels. Each rank looks at its share.
+template<int D>
+std::size_t first_at_fault(const Sweep<D>& sweep, Communicator& ranks) {
+    const auto rank = static_cast<std::size_t>(ranks.rank());
+    const auto size = static_cast<std::size_t>(ranks.size());
+    std::size_t level = 1 + begin_of_part(sweep.layers(), rank, size);
+    const std::size_t end = 1 + begin_of_part(sweep.layers(), rank + 1, size);
+    while (level < end && !fault_of<D>(sweep.boundary, sweep.at(level), sweep.times[level])) {
+        ++level;
+    }
+    return ranks.min(level < end ? level : sweep.times.size());
+}
+
 } // namespace
 
 template<int D>
 void require_embedded_levels(const Sweep<D>& sweep, const PatchMotions<D>& motions, double motion_start,
-                             const TrajectoryOptions& options) {
-    for (std::size_t level = 1; level < sweep.times.size(); ++level) {
-        if (auto fault = fault_of<D>(sweep.boundary, sweep.at(level), sweep.times[level])) {
-            BoundaryMover<D> mover{sweep, motions, motion_start, options};
-            Bisection<D>{sweep, mover, level, std::move(*fault)}.run();
-        }
+                             const TrajectoryOptions& options, Communicator* ranks) {
+    SoleRank alone;
+    const std::size_t level = first_at_fault<D>(sweep, ranks != nullptr ? *ranks : alone);
+    if (level < sweep.times.size()) {
+        BoundaryMover<D> mover{sweep, motions, motion_start, options};
+        Bisection<D>{sweep, mover, level}.run();
     }
 }
 
 template void require_embedded_levels<2>(const Sweep<2>&, const PatchMotions<2>&, double,
-                                         const TrajectoryOptions&);
+                                         const TrajectoryOptions&, Communicator*);
 template void require_embedded_levels<3>(const Sweep<3>&, const PatchMotions<3>&, double,
-                                         const TrajectoryOptions&);
+                                         const TrajectoryOptions&, Communicator*);
 
 } // namespace slabhull

@@ -3,6 +3,7 @@
 
 #include "slabhull/cases/initial.h"
 #include "slabhull/cases/settings.h"
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/vector.h"
 #include "slabhull/geometry/displacement_series.h"
@@ -11,10 +12,13 @@
 #include "study/order_study.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
 using namespace slabhull;
 
@@ -35,13 +39,14 @@ struct Setting {
         return setting;
     }
 
-    MeasuredSweep<D> sweep(const MovingPatch<D>& moving, const LayerOptions& options = {}) const {
-        return sweep_in_layers<D>(boundary, cap, {{body, moving}}, 0, {0, 1}, trajectory, options);
+    MeasuredSweep<D> sweep(const MovingPatch<D>& moving, const LayerOptions& options = {},
+                           Communicator* ranks = nullptr) const {
+        return sweep_in_layers<D>(boundary, cap, {{body, moving}}, 0, {0, 1}, trajectory, options, ranks);
     }
     MeasuredSweep<D> measured(const MovingPatch<D>& moving, std::size_t layers,
-                              const LayerOptions& options = {}) const {
+                              const LayerOptions& options = {}, Communicator* ranks = nullptr) const {
         return sweep_measured<D>(boundary, cap, {{body, moving}}, 0, even_levels(0, 1, layers), trajectory,
-                                 options);
+                                 options, ranks);
     }
 
 private:
@@ -358,6 +363,69 @@ TEMPLATE_TEST_CASE_SIG("a motion that needs too many layers is refused by patch 
 TEMPLATE_TEST_CASE_SIG("an error that more layers do not cure is thrown", "[layers]", ((int D), D), 2, 3) {
     const auto& setting = Setting<D>::get();
     CHECK_THROWS_WITH(setting.sweep({along<D>("1 / (t - t)")}), Catch::Contains("1 / (t - t)"));
+}
+
+namespace {
+
+/// What comes of a sweep, or its error.
+template<int D>
+struct Outcome {
+    std::vector<Array<Point<D>>> positions{};
+    std::size_t layers = 0;
+    std::array<double, 4> fit{};
+    PatchNumber patch = 0;
+    std::string error{};
+
+    bool operator==(const Outcome&) const = default;
+
+    template<class Work>
+    static Outcome of(const Work& work) {
+        try {
+            const MeasuredSweep<D> swept = work();
+            const LayerFit& fit = swept.fit;
+            return {swept.sweep.positions,
+                    fit.layers,
+                    {fit.deviation, fit.turn, fit.growth, fit.time},
+                    fit.patch,
+                    {}};
+        } catch (const GeometryError& error) {
+            return {{}, 0, {}, 0, error.what()};
+        }
+    }
+};
+
+/// `sweep(ranks)` by one process and in ranks.
+template<int D, class SweepIn>
+void require_same_in_ranks(const SweepIn& sweep) {
+    const auto alone = Outcome<D>::of([&] { return sweep(nullptr); });
+    for (const int size : {1, 2, 3, 5}) {
+        std::vector<Outcome<D>> found(static_cast<std::size_t>(size));
+        run_team(size, [&](Communicator& ranks) {
+            found[static_cast<std::size_t>(ranks.rank())] = Outcome<D>::of([&] { return sweep(&ranks); });
+        });
+        for (const Outcome<D>& of_rank : found) {
+            CHECK(of_rank == alone);
+        }
+    }
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE_SIG("ranks that measure layers together find what one process finds", "[layers]",
+                       ((int D), D), 2, 3) {
+    const auto& setting = Setting<D>::get();
+    RandomMotions<D> random{11};
+    const MovingPatch<D> formula = random.formula();
+    const MovingPatch<D> table = random.table();
+    LayerOptions few;
+    few.most = 20;
+    for (const MovingPatch<D>& moving :
+         {formula, table, MovingPatch<D>{turning<D>(5)}, MovingPatch<D>{along<D>("1 / (t - t)")},
+          MovingPatch<D>{along<D>("t < 0.7 ? 1 : 1 / (t - t)")},
+          MovingPatch<D>{along<D>("t < 0.5 ? 90 * cos(90 * t) : 1 / (t - t)")}}) {
+        require_same_in_ranks<D>([&](Communicator* ranks) { return setting.sweep(moving, few, ranks); });
+        require_same_in_ranks<D>([&](Communicator* ranks) { return setting.measured(moving, 4, {}, ranks); });
+    }
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include "slabhull/cases/settings.h"
 
 #include "slabhull/cases/initial.h"
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/error.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/check_filling.h"
@@ -15,6 +16,9 @@
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
+#include <string>
+#include <tuple>
+#include <vector>
 
 using namespace slabhull;
 
@@ -240,6 +244,33 @@ TEST_CASE("a boundary that tangles between levels is bracketed to a thousandth o
         CHECK(tangled.tangled_at - tangled.good_until <= 1e-3);
         REQUIRE(tangled.entities.size() >= 2);
         CHECK_NOTHROW(march.propose({0, tangled.good_until}));
+    }
+}
+
+TEST_CASE("ranks that check levels together find the tangling that one process finds", "[tangling]") {
+    March<2> march = coarse_march<2>();
+    const PatchMotions<2> motions{{march.settings().motions.begin()->first, {translation<2>({10, 0})}}};
+    const Sweep<2> sweep =
+        sweep_boundary<2>(march.state().boundary, march.state().cap, motions, 0, even_levels(0, 1, 8), {});
+    const auto found_by = [&](Communicator* ranks) {
+        try {
+            require_embedded_levels<2>(sweep, motions, 0, {}, ranks);
+        } catch (const TangledBoundary& tangled) {
+            return std::tuple{std::string{tangled.what()}, tangled.good_until, tangled.tangled_at,
+                              tangled.entities.size()};
+        }
+        return std::tuple{std::string{"nothing"}, 0.0, 0.0, std::size_t{0}};
+    };
+    const auto alone = found_by(nullptr);
+    CHECK(std::get<0>(alone) != "nothing");
+    for (const int size : {1, 2, 3, 12}) {
+        std::vector<decltype(found_by(nullptr))> found(static_cast<std::size_t>(size));
+        run_team(size, [&](Communicator& ranks) {
+            found[static_cast<std::size_t>(ranks.rank())] = found_by(&ranks);
+        });
+        for (const auto& of_rank : found) {
+            CHECK(of_rank == alone);
+        }
     }
 }
 

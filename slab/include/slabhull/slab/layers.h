@@ -10,6 +10,8 @@
 
 namespace slabhull {
 
+class Communicator;
+
 /// The number of layers of a slab's side. Between two levels each vertex moves along a chord at constant
 /// speed. A layer is short enough if chords are near trajectories and no facet turns far.
 struct LayerOptions {
@@ -71,7 +73,7 @@ template<int D>
 MeasuredSweep<D> sweep_measured(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
                                 const PatchMotions<D>& motions, double motion_start,
                                 std::vector<double> times, const TrajectoryOptions& trajectory,
-                                const LayerOptions& options);
+                                const LayerOptions& options, Communicator* ranks = nullptr);
 
 /// Sweeps `boundary` from time[0] to time[1] in as few equal layers as the options allow: their number is
 /// raised until a sweep is sound. So the result is that of sweep_boundary() for these levels, bit for bit.
@@ -79,11 +81,12 @@ MeasuredSweep<D> sweep_measured(const Boundary<D>& boundary, const SpatialMesh<D
 /// Throws as sweep_boundary() does, and TooManyLayers naming patch and time. An error at few layers is not
 /// final, as the agreement of patches depends on how well they are integrated: up to 64 layers are tried
 /// then.
-/// Deterministic, whatever the number of threads. Cost: two to three times that of sweep_measured().
+/// Deterministic, whatever the number of threads or ranks (see sweep_measured()). Cost: two to three times
+/// that of sweep_measured().
 template<int D>
 MeasuredSweep<D> sweep_in_layers(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
                                  const PatchMotions<D>& motions, double motion_start,
                                  std::array<double, 2> time, const TrajectoryOptions& trajectory,
-                                 const LayerOptions& options);
+                                 const LayerOptions& options, Communicator* ranks = nullptr);
 
 } // namespace slabhull

@@ -6,6 +6,8 @@
 
 namespace slabhull {
 
+class Communicator;
+
 /// The motion makes the boundary cross itself, leave its box or collapse within a slab. `entities` are the
 /// facets, by their numbers in the boundary.
 class TangledBoundary : public GeometryError {
@@ -20,9 +22,10 @@ public:
 /// Checks the boundary on every level after the first, which is the initial cap's own. Between the first
 /// tangled level and the one before, the time is bracketed by bisection. Needs: what the sweep was made with.
 /// Throws TangledBoundary naming patches, facets, time and place. Cost: that of require_domain_boundary() for
-/// each level, and ten times more when it throws.
+/// each level, and ten times more when it throws. In ranks, all call it with the same arguments, each checks
+/// its share of the levels, and what one process would throw is thrown on all.
 template<int D>
 void require_embedded_levels(const Sweep<D>& sweep, const PatchMotions<D>& motions, double motion_start,
-                             const TrajectoryOptions& options);
+                             const TrajectoryOptions& options, Communicator* ranks = nullptr);
 
 } // namespace slabhull
