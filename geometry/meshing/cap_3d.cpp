@@ -26,6 +26,14 @@ void require_fits(const Surface<3>& surface) {
     }
 }
 
+void require_meshable(const Surface<3>& surface, const CapOptions& options) {
+    require_fits(surface);
+    require_attainable<3>(surface, options.grading.largest);
+    if (options.mesher == SolidMesher::tetgen) {
+        require_resolvable(surface);
+    }
+}
+
 void require_sane(const CapOptions& options) {
     if (!(options.radius_edge >= 1 && options.radius_edge <= 100)) {
         throw UsageError{
@@ -55,7 +63,6 @@ CapMesh<3> finished(CapMesh<3> mesh, const Surface<3>& surface, const CapOptions
 template<>
 CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options) {
     require_sane(options);
-    require_fits(surface);
     require_domain_boundary(surface, {}, false); // meshers crash, or never end, on anything else
     return mesh_cap<3>(Boundary<3>{surface}, surface, options);
 }
@@ -63,22 +70,16 @@ CapMesh<3> mesh_cap<3>(const Surface<3>& surface, const CapOptions& options) {
 template<>
 CapMesh<3> mesh_cap<3>(const Boundary<3>& boundary, const Surface<3>& surface, const CapOptions& options) {
     require_sane(options);
-    require_fits(surface);
-    require_attainable<3>(surface, options.grading.largest);
-    if (options.mesher == SolidMesher::tetgen) {
-        require_resolvable(surface);
-    }
-    const SizeField<3> size{surface.points, boundary_spacing<3>(surface.points, surface.facets),
-                            options.grading};
+    const auto mesh = [&] {
+        require_meshable(surface, options);
+        return finished(mesh_in_blocks(boundary, surface, options), surface, options);
+    };
     if (options.ranks == nullptr) {
-        return finished(mesh_in_blocks(boundary, surface, size, options), surface, options);
+        return mesh();
     }
     return together(*options.ranks, [&] {
-        CapMesh<3> mesh = mesh_in_blocks(boundary, surface, size, options);
-        if (options.ranks->first()) {
-            mesh = finished(std::move(mesh), surface, options);
-        }
-        return with_shared_points(std::move(mesh), *options.ranks);
+        return with_shared_points(
+            options.ranks->first() ? mesh() : mesh_in_blocks(boundary, surface, options), *options.ranks);
     });
 }
 

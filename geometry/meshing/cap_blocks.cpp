@@ -11,13 +11,17 @@
 #include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/progress.h"
+#include "slabhull/geometry/size_field.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -207,23 +211,94 @@ CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, c
     return mesh;
 }
 
-/// Meshes in one block: in ranks, the first does.
-CapMesh<3> mesh_whole(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
-                      const CapOptions& options) {
-    const bool here = options.ranks == nullptr || options.ranks->first();
-    return here ? fill(boundary, surface, size, options) : CapMesh<3>{};
+SizeField<3> wanted_size(const Surface<3>& surface, const CapOptions& options) {
+    return {surface.points, boundary_spacing<3>(surface.points, surface.facets), options.grading};
+}
+
+/// If the domain filled its bounding box.
+double most_cells(const SizeField<3>& size) {
+    return cells_per_cube<3> * size.cube_count();
 }
 
 /// How many blocks are meshed at the same time.
 std::size_t blocks_at_once(const CapOptions& options, double cells, int count, double memory) {
-    if (options.ranks != nullptr) {
-        return static_cast<std::size_t>(options.ranks->size());
-    }
     int at_once = std::min(thread_count(), count);
     while (at_once > 1 && bytes_for(options.mesher, cells, count, at_once) > memory) {
         --at_once;
     }
     return static_cast<std::size_t>(at_once);
+}
+
+CapMesh<3> mesh_alone(const Boundary<3>& boundary, const Surface<3>& surface, const CapOptions& options) {
+    const SizeField<3> size = wanted_size(surface, options);
+    const double most = most_cells(size);
+    expect_work(static_cast<std::uint64_t>(most));
+    const double memory = usable_memory * static_cast<double>(available_memory());
+    if (options.blocks == 1 || (options.blocks == 0 && bytes_for(options.mesher, most, 1, 1) <= memory)) {
+        return fill(boundary, surface, size, options);
+    }
+    std::vector<LoadSample> load = sample_load(surface, size);
+    const double cells = cells_per_cube<3> * cubes_in(load);
+    const int count = options.blocks > 0 ? options.blocks : blocks_that_fit(options.mesher, cells, memory);
+    if (count == 1) {
+        return fill(boundary, surface, size, options);
+    }
+    const DomainBlocks blocks =
+        cut_domain(boundary, surface, size, options.grading.growth, std::move(load), count);
+    return mesh_and_join(blocks, size, options, blocks_at_once(options, cells, count, memory), cells,
+                         surface);
+}
+
+/// The blocks that the first rank has. Collective.
+DomainBlocks blocks_of_first(const DomainBlocks& of_first, Communicator& ranks) {
+    DomainBlocks blocks;
+    blocks.points = ranks.broadcast<Point<3>>(of_first.points, 0);
+    blocks.facets.resize(ranks.gather(of_first.facets.size()).front());
+    for (std::size_t k = 0; k < blocks.facets.size(); ++k) {
+        const auto list = ranks.first() ? std::span{of_first.facets[k]} : std::span<const Facet<3>>{};
+        blocks.facets[k] = ranks.broadcast(list, 0);
+    }
+    return blocks;
+}
+
+/// The field that the first rank has. Collective.
+SizeField<3> size_of_first(const SizeField<3>* of_first, Communicator& ranks) {
+    Array<std::byte> lists;
+    SizeField<3>::Packed heading;
+    if (of_first != nullptr) {
+        heading = of_first->packed();
+        lists.insert(lists.end(), of_first->source_bytes().begin(), of_first->source_bytes().end());
+        lists.insert(lists.end(), of_first->box_bytes().begin(), of_first->box_bytes().end());
+    }
+    heading = ranks.gather(heading).front();
+    return {heading, ranks.broadcast<std::byte>(lists, 0)};
+}
+
+/// The first rank cuts the domain, and each meshes some of the blocks; a single one is the first's.
+CapMesh<3> mesh_in_ranks(const Boundary<3>& boundary, const Surface<3>& surface, const CapOptions& options) {
+    if (options.blocks == 0) {
+        throw UsageError{"ranks mesh a cap in a given number of blocks, as their memory may differ"};
+    }
+    Communicator& ranks = *options.ranks;
+    std::optional<SizeField<3>> size;
+    if (ranks.first()) {
+        size = wanted_size(surface, options);
+        expect_work(static_cast<std::uint64_t>(most_cells(*size)));
+    }
+    if (options.blocks == 1) {
+        return ranks.first() ? fill(boundary, surface, *size, options) : CapMesh<3>{};
+    }
+    DomainBlocks blocks;
+    double cells = 0;
+    if (ranks.first()) {
+        std::vector<LoadSample> load = sample_load(surface, *size);
+        cells = cells_per_cube<3> * cubes_in(load);
+        blocks =
+            cut_domain(boundary, surface, *size, options.grading.growth, std::move(load), options.blocks);
+    }
+    size = size_of_first(ranks.first() ? &*size : nullptr, ranks);
+    blocks = blocks_of_first(blocks, ranks);
+    return mesh_and_join(blocks, *size, options, static_cast<std::size_t>(ranks.size()), cells, surface);
 }
 
 } // namespace
@@ -239,30 +314,9 @@ int blocks_that_fit(SolidMesher mesher, double cells, double bytes) {
     return blocks;
 }
 
-CapMesh<3> mesh_in_blocks(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
-                          const CapOptions& options) {
-    if (options.ranks != nullptr && options.blocks == 0) {
-        throw UsageError{"ranks mesh a cap in a given number of blocks, as their memory may differ"};
-    }
-    const double most_cells = cells_per_cube<3> * size.cube_count(); // if the domain filled its bounding box
-    expect_work(static_cast<std::uint64_t>(most_cells));
-    if (options.blocks == 1) {
-        return mesh_whole(boundary, surface, size, options);
-    }
-    const double memory = usable_memory * static_cast<double>(available_memory());
-    if (options.blocks == 0 && bytes_for(options.mesher, most_cells, 1, 1) <= memory) {
-        return fill(boundary, surface, size, options);
-    }
-    std::vector<LoadSample> load = sample_load(surface, size);
-    const double cells = cells_per_cube<3> * cubes_in(load);
-    const int count = options.blocks > 0 ? options.blocks : blocks_that_fit(options.mesher, cells, memory);
-    if (count == 1) {
-        return fill(boundary, surface, size, options);
-    }
-    const DomainBlocks blocks =
-        cut_domain(boundary, surface, size, options.grading.growth, std::move(load), count);
-    return mesh_and_join(blocks, size, options, blocks_at_once(options, cells, count, memory), cells,
-                         surface);
+CapMesh<3> mesh_in_blocks(const Boundary<3>& boundary, const Surface<3>& surface, const CapOptions& options) {
+    return options.ranks != nullptr ? mesh_in_ranks(boundary, surface, options)
+                                    : mesh_alone(boundary, surface, options);
 }
 
 } // namespace slabhull
