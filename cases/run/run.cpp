@@ -413,7 +413,7 @@ private:
             static_cast<double>(built.files.stage->done()) / static_cast<double>(slab.hull_cells());
         Json report = report_of(slab, *built.sound, built.clock);
         if (ranks_ != nullptr) {
-            report["ranks"] = report_of_ranks(slab);
+            report["ranks"] = report_of_ranks(slab, built.clock);
         }
         if (built.filled) {
             report["fill"] = built.filled->report;
@@ -485,13 +485,18 @@ private:
         }
     }
 
-    /// Cells and peak memory of each rank.
-    Json report_of_ranks(const Slab<D>& slab) const {
+    /// What each rank has and takes.
+    Json report_of_ranks(const Slab<D>& slab, const StageClock& clock) const {
+        Json stages = Json::object();
+        for (const auto& [stage, cpu] : clock.cpu_stages()) { // the same stages on all ranks
+            stages[stage] = ranks_->gather(cpu);
+        }
         return {{"number", ranks_->size()},
                 {"cells", ranks_->gather(slab.part->cells.size())},
                 {"peak_memory", ranks_->gather(peak_memory())},
                 {"mesher_peak_memory", ranks_->gather(peak_memory_of_children())},
                 {"cpu_seconds", ranks_->gather(cpu_seconds())},
+                {"stage_cpu_seconds", std::move(stages)},
                 {"sent_bytes", ranks_->gather(ranks_->sent_bytes())},
                 {"meetings", ranks_->meetings()}};
     }

@@ -15,11 +15,18 @@ namespace slabhull {
 inline constexpr const char* boundary_check_stage = "boundary check";
 inline constexpr const char* cap_meshing_stage = "cap meshing";
 
-/// Seconds by stage, in the order of first occurrence.
+/// Seconds by stage, in the order of first occurrence: wall time, and processor time of this process.
 class StageClock {
 public:
+    using Stages = std::vector<std::pair<std::string, double>>;
+
     /// Books the time since the last call (or the start) on `stage`.
-    void book(const std::string& stage) { add(stage, watch_.lap()); }
+    void book(const std::string& stage) {
+        add(stage, watch_.lap(), stages_);
+        const double cpu = cpu_seconds();
+        add(stage, cpu - cpu_before_, cpu_stages_);
+        cpu_before_ = cpu;
+    }
 
     /// Runs a stage of the work: announces its name (enter_stage()), then books its time. Returns what `work`
     /// returns.
@@ -39,11 +46,17 @@ public:
     /// Adds the stages of another clock, which ran meanwhile.
     void add(const StageClock& other) {
         for (const auto& [name, seconds] : other.stages_) {
-            add(name, seconds);
+            add(name, seconds, stages_);
+        }
+        for (const auto& [name, seconds] : other.cpu_stages_) {
+            add(name, seconds, cpu_stages_);
         }
     }
 
-    const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
+    const Stages& stages() const { return stages_; }
+    /// Processor time of all threads of this process while a stage went on, without ended children: also of
+    /// what ran beside the stage.
+    const Stages& cpu_stages() const { return cpu_stages_; }
     /// Total over all stages, in seconds.
     double total() const {
         double sum = 0;
@@ -54,18 +67,20 @@ public:
     }
 
 private:
-    void add(const std::string& stage, double passed) {
-        for (auto& [name, seconds] : stages_) {
+    static void add(const std::string& stage, double passed, Stages& stages) {
+        for (auto& [name, seconds] : stages) {
             if (name == stage) {
                 seconds += passed;
                 return;
             }
         }
-        stages_.emplace_back(stage, passed);
+        stages.emplace_back(stage, passed);
     }
 
     Stopwatch watch_;
-    std::vector<std::pair<std::string, double>> stages_;
+    double cpu_before_ = cpu_seconds();
+    Stages stages_;
+    Stages cpu_stages_;
 };
 
 } // namespace slabhull
