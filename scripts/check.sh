@@ -16,7 +16,10 @@ run_tests() { # PRESET [options of ctest]
 check_sanitizers() { run_tests dev -LE large; }
 check_long() { run_tests release -L long; }
 check_threads() { run_tests tsan -L parallel; }
-check_lint() { scripts/lint.sh; }
+check_lint() {
+    scripts/install-deps.sh --lint
+    scripts/lint.sh
+}
 check_docs() {
     cmake --preset release -DSLABHULL_SITE=ON -DSLABHULL_UNITY=ON >/dev/null
     cmake --build --preset release --target docs site

@@ -3,6 +3,7 @@
 #   scripts/install-deps.sh          what the build needs
 #   scripts/install-deps.sh --test   what the tests need, too
 #   scripts/install-deps.sh --bare   what scripts/bare.sh needs
+#   scripts/install-deps.sh --lint   what scripts/lint.sh needs beside what the tests need
 set -euo pipefail
 list=$(dirname "$0")/packages.txt
 want=${1:-}
@@ -36,8 +37,8 @@ install_missing() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-if [[ $want == --bare ]]; then
-    install_missing $(packages_under ': bare$')
+if [[ $want == --bare || $want == --lint ]]; then
+    install_missing $(packages_under ": ${want#--}\$")
     exit
 fi
 needed=$(packages_under ' ---$')
