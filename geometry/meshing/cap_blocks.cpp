@@ -32,6 +32,11 @@ constexpr double own_bytes = 100;
 /// Fraction of the free memory that meshing may use.
 constexpr double usable_memory = 0.85;
 
+/// Whether this process gets the mesh: of ranks, the first does.
+bool has_mesh(const CapOptions& options) {
+    return options.ranks == nullptr || options.ranks->first();
+}
+
 CapMesh<3> fill(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                 const CapOptions& options) {
     return options.mesher == SolidMesher::hxt ? fill_with_hxt(boundary, surface, size, options)
@@ -191,15 +196,14 @@ void join_blocks(const DomainBlocks& blocks, std::size_t first, std::size_t coun
 
 CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, const CapOptions& options,
                          std::size_t at_once, double expected_cells, const Surface<3>& boundary) {
-    const bool joins = options.ranks == nullptr || options.ranks->first();
-    BlockJoiner joiner{blocks, joins ? static_cast<std::size_t>(expected_cells) : 0};
+    BlockJoiner joiner{blocks, has_mesh(options) ? static_cast<std::size_t>(expected_cells) : 0};
     for (std::size_t first = 0; first < blocks.facets.size(); first += at_once) {
         const std::size_t count = std::min(at_once, blocks.facets.size() - first);
         options.ranks != nullptr ? join_blocks_of_ranks(blocks, first, count, size, options, joiner)
                                  : join_blocks(blocks, first, count, size, options, joiner);
     }
     CapMesh<3> mesh;
-    if (joins) {
+    if (has_mesh(options)) {
         mesh = joiner.finish(boundary.facets.size());
         repair_slivers(mesh, boundary.points.size(), options.min_dihedral); // interfaces may move now
     }
@@ -210,8 +214,7 @@ CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, c
 /// Meshes in one block: in ranks, the first does.
 CapMesh<3> mesh_whole(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                       const CapOptions& options) {
-    const bool here = options.ranks == nullptr || options.ranks->first();
-    return here ? fill(boundary, surface, size, options) : CapMesh<3>{};
+    return has_mesh(options) ? fill(boundary, surface, size, options) : CapMesh<3>{};
 }
 
 /// How many blocks are meshed at the same time.
