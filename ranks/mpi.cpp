@@ -60,7 +60,8 @@ public:
         double longest = 0;
         int which = rank_;
         for (std::size_t r = 0; r < heard_.size(); ++r) {
-            const double silent = static_cast<int>(r) == rank_ ? 0.0 : 1e-3 * static_cast<double>(listened - heard_[r]);
+            const double silent =
+                static_cast<int>(r) == rank_ ? 0.0 : 1e-3 * static_cast<double>(listened - heard_[r]);
             if (silent > longest) {
                 longest = silent;
                 which = static_cast<int>(r);
@@ -129,8 +130,8 @@ public:
 protected:
     void exchange(const void* mine, std::size_t bytes, void* all) override {
         MPI_Request request;
-        MPI_Iallgather(mine, static_cast<int>(bytes), MPI_BYTE, all, static_cast<int>(bytes), MPI_BYTE, world_,
-                       &request);
+        MPI_Iallgather(mine, static_cast<int>(bytes), MPI_BYTE, all, static_cast<int>(bytes), MPI_BYTE,
+                       world_, &request);
         wait_for({&request, 1});
     }
 
@@ -209,7 +210,8 @@ int run_in_mpi(const std::function<int(Communicator&)>& work, double timeout) {
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     if (provided < MPI_THREAD_MULTIPLE) {
         MPI_Finalize();
-        throw UsageError{"this MPI does not let several threads call it (MPI_THREAD_MULTIPLE), which ranks need"};
+        throw UsageError{
+            "this MPI does not let several threads call it (MPI_THREAD_MULTIPLE), which ranks need"};
     }
     int result = 0;
     std::exception_ptr error;

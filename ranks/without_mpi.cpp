@@ -10,8 +10,9 @@ bool has_mpi() {
 }
 
 int run_in_mpi(const std::function<int(Communicator&)>&, double) {
-    throw UsageError{"this build has no MPI: install libopenmpi-dev and configure again with SLABHULL_MPI=ON; or "
-                     "run without mpirun, on one machine"};
+    throw UsageError{
+        "this build has no MPI: install libopenmpi-dev and configure again with SLABHULL_MPI=ON; or "
+        "run without mpirun, on one machine"};
 }
 
 } // namespace slabhull

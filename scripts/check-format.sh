@@ -4,5 +4,5 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 mode=(--dry-run --Werror)
 [[ ${1:-} == --fix ]] && mode=(-i)
-find core topology geometry io slab edit cases study view tools python tests bench examples \( -name '*.cpp' -o -name '*.h' \) -print0 |
+find core topology geometry io slab edit cases ranks study view tools python tests bench examples \( -name '*.cpp' -o -name '*.h' \) -print0 |
     xargs -0 clang-format "${mode[@]}"

@@ -248,8 +248,7 @@ AngleHistogram angles_of(const Filling<D>& filling) {
         AngleHistogram bins{};
         constexpr double width = 180.0 / angle_bins;
         for (const Simplex<4>& cell : filling.cells) {
-            const double angle =
-                dihedral_angles<4, 4>(corners_of<4, 4>(cell, std::span{filling.points})).smallest;
+            const double angle = dihedral_angles<4, 4>(corners_of<4, 4>(cell, filling.points)).smallest;
             ++bins[std::min(angle_bins - 1, static_cast<std::size_t>(angle / width))];
         }
         return bins;

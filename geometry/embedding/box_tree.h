@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/each_bit.h"
 #include "core/parallel_sort.h"
 #include "core/pieces.h"
 
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -185,14 +185,6 @@ private:
             boxes.push_back(row.around());
         }
         return boxes;
-    }
-
-    /// Calls use(k) for each bit k that is set, ascending.
-    template<class Use>
-    static void each_bit(unsigned bits, const Use& use) {
-        for (; bits != 0; bits &= bits - 1) {
-            use(static_cast<std::size_t>(std::countr_zero(bits)));
-        }
     }
 
     /// Calls visit(leaf) for the leaves under a node, from `first` on, whose box meets `box`. Level 0:

@@ -95,8 +95,8 @@ FacetPair<D + 1> CellPairs<D>::pair_of(Index first, Index second) const {
             ++pair.shared;
         }
     }
-    pair.f = corners_among<D>(f, points_);
-    pair.g = corners_among<D>(g, points_);
+    pair.f = corners_of<D, D + 1>(f, points_);
+    pair.g = corners_of<D, D + 1>(g, points_);
     return pair;
 }
 

@@ -20,16 +20,6 @@ bool degenerate(const std::array<Point<3>, 3>& triangle);
 bool degenerate(const std::array<Point<4>, 4>& tetrahedron);
 
 template<int D>
-std::array<Point<D + 1>, D + 1> corners_among(const Simplex<D>& cell,
-                                              const JoinedSpans<Point<D + 1>>& points) {
-    std::array<Point<D + 1>, D + 1> corners;
-    for (std::size_t i = 0; i <= D; ++i) {
-        corners[i] = points[cell[i]];
-    }
-    return corners;
-}
-
-template<int D>
 Box<D + 1> box_of(const Simplex<D>& cell, const JoinedSpans<Point<D + 1>>& points) {
     Box<D + 1> box;
     for (const Index v : cell) {

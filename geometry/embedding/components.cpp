@@ -2,9 +2,6 @@
 #include "geometry/embedding/components.h"
 
 #include "slabhull/geometry/measures.h"
-#include "slabhull/topology/dual_graph.h"
-
-#include <boost/graph/connected_components.hpp>
 
 namespace slabhull {
 
@@ -37,22 +34,11 @@ double cone(const Point<D>& apex, const FacetCorners<D>& corners) {
 } // namespace
 
 template<int D>
-FacetComponents<D>::FacetComponents(std::span<const Neighbors<D - 1>> neighbors)
-    : component_(neighbors.size()) {
-    boost::connected_components(DualGraph<D - 1>{neighbors}, component_.data());
-    for (Index facet = 0; facet < component_.size(); ++facet) {
-        if (component_[facet] == first_facet_.size()) {
-            first_facet_.push_back(facet);
-        }
-    }
-}
-
-template<class Parts, int D>
-std::vector<double> enclosed_by_components(const Parts& parts, const Surface<D>& surface) {
-    std::vector<double> enclosed(parts.component_count(), 0);
+std::vector<double> enclosed_by_components(const FacetComponents<D>& components, const Surface<D>& surface) {
+    std::vector<double> enclosed(components.count(), 0);
     for (Index facet = 0; facet < surface.facets.size(); ++facet) {
-        const Index part = parts.component(facet);
-        const Point<D>& apex = surface.points[surface.facets[parts.first_facet(part)][0]];
+        const Index part = components.component(facet);
+        const Point<D>& apex = surface.points[surface.facets[components.first_facet(part)][0]];
         enclosed[part] += cone<D>(apex, corners_of_facet(surface, facet));
     }
     return enclosed;
@@ -69,11 +55,7 @@ int detail::line_passes(const FacetCorners<3>& facet, const Point<3>& p) {
     return side_of(facet[1], facet[2], p) == side && side_of(facet[2], facet[0], p) == side ? side : 0;
 }
 
-template class FacetComponents<2>;
-template class FacetComponents<3>;
-template std::vector<double> enclosed_by_components(const Boundary<2>&, const Surface<2>&);
-template std::vector<double> enclosed_by_components(const Boundary<3>&, const Surface<3>&);
-template std::vector<double> enclosed_by_components(const FacetComponents<2>&, const Surface<2>&);
-template std::vector<double> enclosed_by_components(const FacetComponents<3>&, const Surface<3>&);
+template std::vector<double> enclosed_by_components<2>(const FacetComponents<2>&, const Surface<2>&);
+template std::vector<double> enclosed_by_components<3>(const FacetComponents<3>&, const Surface<3>&);
 
 } // namespace slabhull

@@ -5,36 +5,20 @@
 #include "geometry/embedding/box_tree.h"
 #include "geometry/embedding/facet_pair.h"
 
-#include "slabhull/topology/boundary.h"
+#include "slabhull/topology/facet_components.h"
+#include "slabhull/topology/spatial_mesh.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <vector>
 
 namespace slabhull {
 
-/// The components of a closed surface, numbered as a Boundary numbers them; made without its half-edges.
+/// Signed measure that each component of a surface encloses: positive for an outer boundary, negative around
+/// a body.
 template<int D>
-class FacetComponents {
-public:
-    /// `neighbors`: of the facets. Needs: none is missing.
-    explicit FacetComponents(std::span<const Neighbors<D - 1>> neighbors);
-
-    std::size_t component_count() const { return first_facet_.size(); }
-    Index component(std::size_t facet) const { return component_[facet]; }
-    Index first_facet(std::size_t component) const { return first_facet_[component]; }
-
-private:
-    std::vector<Index> component_;
-    std::vector<Index> first_facet_;
-};
-
-/// Signed measure that each component of a boundary encloses with the positions of `surface`: positive for an
-/// outer boundary, negative around a body. `Parts`: Boundary or FacetComponents.
-template<class Parts, int D>
-std::vector<double> enclosed_by_components(const Parts& parts, const Surface<D>& surface);
+std::vector<double> enclosed_by_components(const FacetComponents<D>& components, const Surface<D>& surface);
 
 namespace detail {
 

@@ -47,7 +47,7 @@ public:
         require_finite_points();
         require_extent();
         require_no_crossings();
-        require_nesting(boundary);
+        require_nesting(boundary.facet_components());
     }
 
 private:
@@ -69,15 +69,13 @@ private:
     void require_closed(const Adjacency<D - 1>& adjacency) const;
     void require_fans(const Adjacency<D - 1>& adjacency) const;
     void require_no_crossings() const;
-    template<class Parts>
-    void require_nesting(const Parts& boundary) const;
+    void require_nesting(const FacetComponents<D>& components) const;
 
     std::string ridge_in_words(const FacetDefect<D - 1>& defect) const;
-    template<class Parts>
-    void judge_component(const Parts& boundary, Index facet, const std::vector<double>& enclosed,
-                         int winding) const;
-    template<class Parts>
-    std::string whereabouts(const Parts& boundary, Index part, const std::vector<double>& enclosed) const;
+    void judge_component(const FacetComponents<D>& components, Index facet,
+                         const std::vector<double>& enclosed, int winding) const;
+    std::string whereabouts(const FacetComponents<D>& components, Index part,
+                            const std::vector<double>& enclosed) const;
     template<class Takes>
     std::string extent_in_words(const Takes& takes) const;
 
@@ -249,12 +247,11 @@ void BoundaryInspection<D>::require_no_crossings() const {
 /// The domain must lie on the inner side of each component. Seen from a component, the winding number of the
 /// others must be 1 if it bounds a body, and 0 if it is an outer boundary.
 template<int D>
-template<class Parts>
-void BoundaryInspection<D>::require_nesting(const Parts& boundary) const {
-    const std::vector<double> enclosed = enclosed_by_components(boundary, surface_);
+void BoundaryInspection<D>::require_nesting(const FacetComponents<D>& components) const {
+    const std::vector<double> enclosed = enclosed_by_components(components, surface_);
     std::optional<BoxTree<D>> tree; // not needed for one component
     for (Index part = 0; part < enclosed.size(); ++part) {
-        const Index facet = boundary.first_facet(part);
+        const Index facet = components.first_facet(part);
         int winding = 0;
         if (enclosed.size() > 1) {
             if (!tree) {
@@ -262,9 +259,9 @@ void BoundaryInspection<D>::require_nesting(const Parts& boundary) const {
             }
             const Point<D>& place = surface_.points[surface_.facets[facet][0]];
             winding = winding_number<D>(surface_, *tree, place,
-                                        [&](Index other) { return boundary.component(other) != part; });
+                                        [&](Index other) { return components.component(other) != part; });
         }
-        judge_component(boundary, facet, enclosed, winding);
+        judge_component(components, facet, enclosed, winding);
     }
 }
 
@@ -285,11 +282,10 @@ std::string BoundaryInspection<D>::extent_in_words(const Takes& takes) const {
 
 /// Where a body that is outside the domain is, and what to do about it.
 template<int D>
-template<class Parts>
-std::string BoundaryInspection<D>::whereabouts(const Parts& boundary, Index part,
+std::string BoundaryInspection<D>::whereabouts(const FacetComponents<D>& components, Index part,
                                                const std::vector<double>& enclosed) const {
-    const std::string own = extent_in_words([&](Index f) { return boundary.component(f) == part; });
-    const std::string outer = extent_in_words([&](Index f) { return enclosed[boundary.component(f)] > 0; });
+    const std::string own = extent_in_words([&](Index f) { return components.component(f) == part; });
+    const std::string outer = extent_in_words([&](Index f) { return enclosed[components.component(f)] > 0; });
     return fmt::format(
         "; it extends from {}, the outer boundary from {}. Move it or change the outer boundary; if they "
         "are in different units, slabhull convert --scale changes those of a surface",
@@ -298,10 +294,9 @@ std::string BoundaryInspection<D>::whereabouts(const Parts& boundary, Index part
 
 /// `facet`: the first of the component; `winding`: winding number of the other components around it.
 template<int D>
-template<class Parts>
-void BoundaryInspection<D>::judge_component(const Parts& boundary, Index facet,
+void BoundaryInspection<D>::judge_component(const FacetComponents<D>& components, Index facet,
                                             const std::vector<double>& enclosed, int winding) const {
-    const Index part = boundary.component(facet);
+    const Index part = components.component(facet);
     const bool outer = enclosed[part] > 0;
     const bool any_outer = std::any_of(enclosed.begin(), enclosed.end(), [](double e) { return e > 0; });
     if (winding == (outer ? 0 : 1)) {
@@ -323,7 +318,7 @@ void BoundaryInspection<D>::judge_component(const Parts& boundary, Index facet,
     } else if (winding <= 0) {
         fault =
             "bounds a body that lies outside the domain: outside the outer boundary, or inside another body" +
-            (is_input_ ? whereabouts(boundary, part, enclosed) : std::string{});
+            (is_input_ ? whereabouts(components, part, enclosed) : std::string{});
     } else {
         fault = "bounds a body that lies inside several outer boundaries at once";
     }

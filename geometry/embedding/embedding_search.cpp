@@ -100,7 +100,7 @@ private:
                 const std::size_t cells = in_proven_star(g) ? 0 : groups_.cell_count(g);
                 for (std::size_t k = 0; k < cells; ++k) {
                     const auto c = static_cast<Index>(groups_.first_cell(g) + k);
-                    if (degenerate(corners_among<D>(cells_[c], points_))) {
+                    if (degenerate(corners_of<D, D + 1>(cells_[c], points_))) {
                         found.push_back(c);
                     }
                 }

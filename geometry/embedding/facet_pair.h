@@ -4,6 +4,7 @@
 #include "geometry/embedding/box_tree.h"
 
 #include "slabhull/core/point.h"
+#include "slabhull/geometry/measures.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <array>
@@ -16,11 +17,7 @@ using FacetCorners = std::array<Point<D>, D>;
 
 template<int D>
 FacetCorners<D> corners_of_facet(const Surface<D>& surface, Index facet) {
-    FacetCorners<D> corners;
-    for (std::size_t i = 0; i < D; ++i) {
-        corners[i] = surface.points[surface.facets[facet][i]];
-    }
-    return corners;
+    return corners_of<D - 1, D>(surface.facets[facet], surface.points);
 }
 
 /// Two facets whose shared vertices come first, in the same order.

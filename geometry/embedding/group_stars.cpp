@@ -359,7 +359,7 @@ void GroupStars<D>::list_cells(std::size_t group) {
 
 template<int D>
 Point<D + 1> GroupStars<D>::scaled_normal(std::size_t cell) const {
-    auto corners = corners_among<D>(mesh_.cell(static_cast<Index>(cell)), points_);
+    auto corners = corners_of<D, D + 1>(mesh_.cell(static_cast<Index>(cell)), points_);
     for (auto& corner : corners) {
         for (std::size_t k = 0; k <= D; ++k) {
             corner[k] *= scale_[k];

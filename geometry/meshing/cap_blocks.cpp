@@ -36,6 +36,11 @@ constexpr double own_bytes = 100;
 /// Fraction of the free memory that meshing may use.
 constexpr double usable_memory = 0.85;
 
+/// Whether this process gets the mesh: of ranks, the first does.
+bool has_mesh(const CapOptions& options) {
+    return options.ranks == nullptr || options.ranks->first();
+}
+
 CapMesh<3> fill(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                 const CapOptions& options) {
     return options.mesher == SolidMesher::hxt ? fill_with_hxt(boundary, surface, size, options)
@@ -195,15 +200,14 @@ void join_blocks(const DomainBlocks& blocks, std::size_t first, std::size_t coun
 
 CapMesh<3> mesh_and_join(const DomainBlocks& blocks, const SizeField<3>& size, const CapOptions& options,
                          std::size_t at_once, double expected_cells, const Surface<3>& boundary) {
-    const bool joins = options.ranks == nullptr || options.ranks->first();
-    BlockJoiner joiner{blocks, joins ? static_cast<std::size_t>(expected_cells) : 0};
+    BlockJoiner joiner{blocks, has_mesh(options) ? static_cast<std::size_t>(expected_cells) : 0};
     for (std::size_t first = 0; first < blocks.facets.size(); first += at_once) {
         const std::size_t count = std::min(at_once, blocks.facets.size() - first);
         options.ranks != nullptr ? join_blocks_of_ranks(blocks, first, count, size, options, joiner)
                                  : join_blocks(blocks, first, count, size, options, joiner);
     }
     CapMesh<3> mesh;
-    if (joins) {
+    if (has_mesh(options)) {
         mesh = joiner.finish(boundary.facets.size());
         repair_slivers(mesh, boundary.points.size(), options.min_dihedral); // interfaces may move now
     }

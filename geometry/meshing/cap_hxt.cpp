@@ -97,8 +97,8 @@ void set_options(const Gmsh& gmsh, const SizeField<3>& size) {
 /// The boundary components of each connected part of the domain, the outer one first.
 using Solids = std::vector<std::vector<Index>>;
 
-Solids find_solids(const Boundary<3>& boundary, const Surface<3>& surface) {
-    const std::vector<double> enclosed = enclosed_by_components(boundary, surface);
+Solids find_solids(const FacetComponents<3>& components, const Surface<3>& surface) {
+    const std::vector<double> enclosed = enclosed_by_components(components, surface);
     Solids solids;
     std::vector<Index> outer; // by size, ascending: the first one around a body bounds its part
     for (Index part = 0; part < enclosed.size(); ++part) {
@@ -112,10 +112,10 @@ Solids find_solids(const Boundary<3>& boundary, const Surface<3>& surface) {
     }
     const BoxTree<3> tree{facet_boxes(surface)};
     for (Index part = 0; part < enclosed.size(); ++part) {
-        const Point<3>& place = surface.points[surface.facets[boundary.first_facet(part)][0]];
+        const Point<3>& place = surface.points[surface.facets[components.first_facet(part)][0]];
         const auto is_in = [&](const std::vector<Index>& solid) {
             return winding_number<3>(surface, tree, place,
-                                     [&](Index f) { return boundary.component(f) == solid[0]; }) > 0;
+                                     [&](Index f) { return components.component(f) == solid[0]; }) > 0;
         };
         if (!(enclosed[part] > 0)) {
             std::find_if(solids.begin(), solids.end(), is_in)->push_back(part);
@@ -128,16 +128,13 @@ Solids find_solids(const Boundary<3>& boundary, const Surface<3>& surface) {
 /// node added for the one with the largest tag, and would otherwise reuse tags.
 class GmshDomain {
 public:
-    GmshDomain(const Gmsh& gmsh, const Boundary<3>& boundary, const Surface<3>& surface, const Solids& solids)
+    GmshDomain(const Gmsh& gmsh, const FacetComponents<3>& components, const Surface<3>& surface,
+               const Solids& solids)
         : gmsh_{gmsh}, surface_{surface}, tag_(surface.points.size(), 0) {
         gmsh.call<decltype(gmshModelAdd)>("gmshModelAdd", "cap");
-        std::vector<std::vector<Index>> facets(boundary.component_count());
-        for (Index f = 0; f < surface.facets.size(); ++f) {
-            facets[boundary.component(f)].push_back(f);
-        }
         std::vector<int> loops;
-        for (std::size_t part = 0; part < facets.size(); ++part) {
-            loops.push_back(add_component(static_cast<int>(part) + 1, facets[part]));
+        for (const std::vector<Index>& facets : components.facets()) {
+            loops.push_back(add_component(static_cast<int>(loops.size()) + 1, facets));
         }
         for (const std::vector<Index>& solid : solids) {
             std::vector<int> bounds;
@@ -235,7 +232,7 @@ void send_failure(const Send& send, std::int32_t status, const std::string& said
     send(&heading, sizeof heading);
 }
 
-void mesh_and_send(const Boundary<3>& boundary, const Surface<3>& surface, const Solids& solids,
+void mesh_and_send(const FacetComponents<3>& components, const Surface<3>& surface, const Solids& solids,
                    const SizeField<3>& size, const Send& send) {
     // In its own namespace: Gmsh contains parts of TetGen, would call ours instead, and crash.
     void* library = dlmopen(LM_ID_NEWLM, SLABHULL_GMSH_SONAME, RTLD_NOW | RTLD_LOCAL);
@@ -248,7 +245,7 @@ void mesh_and_send(const Boundary<3>& boundary, const Surface<3>& surface, const
         char* arguments = program.data();
         gmsh.call<decltype(gmshInitialize)>("gmshInitialize", 1, &arguments, 0);
         set_options(gmsh, size);
-        const GmshDomain domain{gmsh, boundary, surface, solids};
+        const GmshDomain domain{gmsh, components, surface, solids};
         gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 3);
         const CapMesh<3> mesh = domain.result();
         const MesherHeading heading{0,
@@ -277,10 +274,11 @@ bool has_hxt() {
 
 CapMesh<3> fill_with_hxt(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                          const CapOptions&) {
-    const Solids solids = find_solids(boundary, surface);
+    const FacetComponents<3>& components = boundary.facet_components();
+    const Solids solids = find_solids(components, surface);
     const auto job = [&](const Send& send) {
         fall_silent();
-        mesh_and_send(boundary, surface, solids, size, send);
+        mesh_and_send(components, surface, solids, size, send);
     };
     return fill_in_child(
         surface, [&](const auto& receive) { return run_in_child(job, receive); }, failure_in_words);

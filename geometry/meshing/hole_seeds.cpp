@@ -38,8 +38,8 @@ double distance_along(const Point<3>& from, const Point<3>& direction, const Fac
 
 class SeedSearch {
 public:
-    SeedSearch(const Boundary<3>& boundary, const Surface<3>& surface)
-        : boundary_{boundary}, surface_{surface}, tree_{facet_boxes(surface)} {
+    SeedSearch(const FacetComponents<3>& components, const Surface<3>& surface)
+        : components_{components}, surface_{surface}, tree_{facet_boxes(surface)} {
         Box<3> all;
         for (const Point<3>& p : surface.points) {
             all.include(p);
@@ -58,7 +58,7 @@ private:
     double reach(Index facet, const Point<3>& from, const Point<3>& direction) const;
     bool proven(Index part, const Point<3>& place) const;
 
-    const Boundary<3>& boundary_;
+    const FacetComponents<3>& components_;
     const Surface<3>& surface_;
     BoxTree<3> tree_;
     double diameter_;
@@ -100,7 +100,7 @@ SeedSearch::Candidate SeedSearch::behind(Index facet) const {
 bool SeedSearch::proven(Index part, const Point<3>& place) const {
     return all_finite(place) && winding_number<3>(surface_, tree_, place, [](Index) { return true; }) == 0 &&
            winding_number<3>(surface_, tree_, place,
-                             [&](Index f) { return boundary_.component(f) == part; }) == -1;
+                             [&](Index f) { return components_.component(f) == part; }) == -1;
 }
 
 Point<3> SeedSearch::inside(Index part, const std::vector<Index>& facets) const {
@@ -125,17 +125,15 @@ Point<3> SeedSearch::inside(Index part, const std::vector<Index>& facets) const 
 } // namespace
 
 std::vector<Point<3>> hole_seeds(const Boundary<3>& boundary, const Surface<3>& surface) {
-    const std::vector<double> enclosed = enclosed_by_components(boundary, surface);
-    std::vector<std::vector<Index>> facets(enclosed.size());
-    for (Index f = 0; f < boundary.facet_count(); ++f) {
-        facets[boundary.component(f)].push_back(f);
-    }
+    const FacetComponents<3>& components = boundary.facet_components();
+    const std::vector<double> enclosed = enclosed_by_components(components, surface);
+    const std::vector<std::vector<Index>> facets = components.facets();
     std::optional<SeedSearch> search; // its tree is not needed if there are no bodies
     std::vector<Point<3>> seeds;
     for (Index part = 0; part < enclosed.size(); ++part) {
         if (!(enclosed[part] > 0)) {
             if (!search) {
-                search.emplace(boundary, surface);
+                search.emplace(components, surface);
             }
             seeds.push_back(search->inside(part, facets[part]));
         }

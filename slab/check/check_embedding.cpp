@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/check_embedding.h"
 
+#include "geometry/embedding/embedded_caps.h"
 #include "slab/check/findings.h"
 #include "slab/check/part_embedding.h"
 
@@ -81,15 +82,6 @@ std::int64_t claimed_patch(const HullColumns<D>& hull, Index cell) {
 }
 
 template<int D>
-std::array<double, 2> times_of(const HullColumns<D>& hull, Index cell) {
-    std::array<double, 2> times{hull.points[hull.cells[cell][0]][D], hull.points[hull.cells[cell][0]][D]};
-    for (const Index v : hull.cells[cell]) {
-        times = {std::min(times[0], hull.points[v][D]), std::max(times[1], hull.points[v][D])};
-    }
-    return times;
-}
-
-template<int D>
 EmbeddingSummary summary_of(const Findings& findings, const HullEmbedding<D>& found) {
     return {findings.count(Defect::self_crossing),
             found.all_listed,
@@ -134,7 +126,8 @@ std::optional<EmbeddingSummary> check_embedding(const HullColumns<D>& hull, cons
     CrossingNames<D> names{findings, hull.patches, [&](Index cell) { return claimed_patch(hull, cell); }};
     for (const Crossing<D + 1>& crossing : found.crossings) {
         if (crossing.first != crossing.second) {
-            names.add(crossing, {times_of(hull, crossing.first), times_of(hull, crossing.second)});
+            names.add(crossing, {time_span<D>(hull.points, {&hull.cells[crossing.first], 1}),
+                                 time_span<D>(hull.points, {&hull.cells[crossing.second], 1})});
         }
     }
     return summary_of(findings, found);

@@ -8,6 +8,7 @@
 #include "geometry/embedding/cell_pairs.h"
 #include "geometry/embedding/embedded_caps.h"
 #include "geometry/embedding/embedding_search.h"
+#include "slab/check/ghost_cells.h"
 #include "slab/check/part_exchange.h"
 #include "slabhull/core/index.h"
 
@@ -146,13 +147,6 @@ private:
     Array<CapOf> caps_; ///< of the part's cells, then of those outside
 };
 
-/// A cell that is sent to another rank, in the hull's numbers.
-template<int D>
-struct SentCell {
-    std::uint64_t number;
-    std::array<std::uint64_t, D + 1> vertices;
-    std::array<std::uint64_t, D + 1> neighbors;
-};
 template<int D>
 struct SentPoint {
     std::uint64_t number;
@@ -164,21 +158,26 @@ struct SentPoint {
 template<int D>
 struct SentCells {
     Array<std::uint8_t> sizes; ///< of the groups
-    Array<SentCell<D>> tested;
-    Array<SentCell<D>> touching;
+    Array<CellInHull<D>> tested;
+    Array<CellInHull<D>> touching;
     Array<SentPoint<D>> points;
+
+    template<class Visit>
+    void each_cell(const Visit& visit) const {
+        std::for_each(tested.begin(), tested.end(), visit);
+        std::for_each(touching.begin(), touching.end(), visit);
+    }
 };
 
 /// What one rank's search needs beside its part: the tested cells of later ranks that may meet its own, and
 /// cells that are not tested but touch these.
 template<int D>
 struct GhostsOfSearch {
-    Array<std::uint8_t> sizes; ///< of the groups of tested ghosts, which come first
-    Array<Simplex<D>> cells;   ///< in the part's points, then `points`
+    LocalNumbering<D> numbers;
+    Array<std::uint8_t> sizes;  ///< of the groups of tested ghosts, which come first
+    Array<Point<D + 1>> points; ///< that are not the part's
+    Array<Simplex<D>> cells;    ///< in the part's points, then `points`
     Array<Neighbors<D>> neighbors;
-    Array<Index> outside;         ///< what the cells of HullPart::outside are here
-    Array<Point<D + 1>> points;   ///< that are not the part's
-    Array<std::uint64_t> numbers; ///< of these points in the hull
 };
 
 /// Brings together the cells that each rank's search needs.
@@ -198,16 +197,10 @@ public:
     GhostsOfSearch<D> run() {
         SentCells<D> sent = exchange();
         std::vector<std::uint8_t>{}.swap(sizes_);
-        GhostsOfSearch<D> ghosts;
-        ghosts.sizes = std::move(sent.sizes);
+        GhostsOfSearch<D> ghosts{numbering(sent), std::move(sent.sizes), {}, {}, {}};
         list_points(sent, ghosts);
         list_cells(sent, ghosts);
         return ghosts;
-    }
-
-    /// The hull's number of a tested cell that is here.
-    std::uint64_t number_of(Index cell) const {
-        return cell < part_.cells.size() ? part_.range.first + cell : tested_here_[cell - part_.cells.size()];
     }
 
 private:
@@ -298,7 +291,7 @@ private:
             for (const std::size_t r : targets) {
                 to[r].sizes.push_back(static_cast<std::uint8_t>(count));
                 for (std::size_t c = first; c < first + count; ++c) {
-                    to[r].tested.push_back(as_sent(c));
+                    to[r].tested.push_back(cell_in_hull(part_, c));
                 }
             }
         });
@@ -310,40 +303,22 @@ private:
             if (is_tested(c)) {
                 continue;
             }
-            std::array<std::int32_t, D + 1> owner;
-            for (std::size_t i = 0; i <= D; ++i) {
-                owner[i] = owners_[part_.cells[c][i]];
-            }
-            std::sort(owner.begin(), owner.end());
-            const auto end = std::unique(owner.begin(), owner.end());
-            for (auto r = owner.begin(); r != end && *r != no_rank; ++r) {
-                if (*r == ranks_.rank()) {
+            each_owner<D>(part_.cells[c], owners_, [&](std::int32_t owner) {
+                if (owner == ranks_.rank()) {
                     touching_.insert(c);
-                } else {
-                    to[static_cast<std::size_t>(*r)].touching.push_back(as_sent(c));
+                } else if (owner != no_rank) {
+                    to[static_cast<std::size_t>(owner)].touching.push_back(cell_in_hull(part_, c));
                 }
-            }
+            });
         }
         touching_.count();
     }
 
-    SentCell<D> as_sent(std::size_t c) const {
-        SentCell<D> sent{};
-        sent.number = part_.range.first + c;
-        for (std::size_t i = 0; i <= D; ++i) {
-            sent.vertices[i] = part_.points_used->member(part_.cells[c][i]);
-            sent.neighbors[i] = part_.in_hull(part_.neighbors[c][i]);
-        }
-        return sent;
-    }
-
     void list_points_of(SentCells<D>& there) const {
         Array<std::uint64_t> numbers;
-        for (const Array<SentCell<D>>* cells : {&there.tested, &there.touching}) {
-            for (const SentCell<D>& cell : *cells) {
-                numbers.insert(numbers.end(), cell.vertices.begin(), cell.vertices.end());
-            }
-        }
+        there.each_cell([&](const CellInHull<D>& cell) {
+            numbers.insert(numbers.end(), cell.vertices.begin(), cell.vertices.end());
+        });
         sort_out(numbers);
         there.points.reserve(numbers.size());
         for (const std::uint64_t number : numbers) {
@@ -353,73 +328,36 @@ private:
 
     // --- what is here
 
-    void list_points(const SentCells<D>& sent, GhostsOfSearch<D>& ghosts) const {
+    LocalNumbering<D> numbering(const SentCells<D>& sent) const {
+        Array<std::uint64_t> points;
         for (const SentPoint<D>& point : sent.points) {
             if (!part_.points_used->contains(point.number)) {
-                ghosts.numbers.push_back(point.number);
+                points.push_back(point.number);
             }
         }
-        sort_out(ghosts.numbers);
-        ghosts.points.resize(ghosts.numbers.size());
+        sort_out(points);
+        Array<std::uint64_t> cells;
+        sent.each_cell([&](const CellInHull<D>& cell) { cells.push_back(cell.number); });
+        return {part_, std::move(points), std::move(cells), sent.tested.size()};
+    }
+
+    void list_points(const SentCells<D>& sent, GhostsOfSearch<D>& ghosts) const {
+        ghosts.points.resize(ghosts.numbers.point_count() - part_.points.size());
         for (const SentPoint<D>& point : sent.points) {
-            const Index here = point_here(point.number, ghosts);
+            const Index here = ghosts.numbers.point(point.number);
             if (here >= part_.points.size()) {
                 ghosts.points[here - part_.points.size()] = point.place;
             }
         }
     }
 
-    Index point_here(std::uint64_t number, const GhostsOfSearch<D>& ghosts) const {
-        if (part_.points_used->contains(number)) {
-            return static_cast<Index>(part_.points_used->rank(number));
-        }
-        const auto place = std::lower_bound(ghosts.numbers.begin(), ghosts.numbers.end(), number);
-        return static_cast<Index>(part_.points.size() +
-                                  static_cast<std::size_t>(place - ghosts.numbers.begin()));
-    }
-
-    void list_cells(const SentCells<D>& sent, GhostsOfSearch<D>& ghosts) {
-        for (const SentCell<D>& cell : sent.tested) {
-            tested_here_.push_back(cell.number);
-        }
-        for (const SentCell<D>& cell : sent.touching) {
-            touching_here_.push_back(cell.number);
-        }
+    void list_cells(const SentCells<D>& sent, GhostsOfSearch<D>& ghosts) const {
         const std::size_t count = sent.tested.size() + sent.touching.size();
         checked_index(part_.cells.size() + count, "cells of a part");
         ghosts.cells.reserve(count);
         ghosts.neighbors.reserve(count);
-        add(sent.tested, ghosts);
-        add(sent.touching, ghosts);
-        ghosts.outside.resize(part_.outside.size());
-        std::transform(part_.outside.begin(), part_.outside.end(), ghosts.outside.begin(),
-                       [&](std::uint64_t number) { return cell_here(number); });
-    }
-
-    void add(const Array<SentCell<D>>& cells, GhostsOfSearch<D>& ghosts) const {
-        for (const SentCell<D>& sent : cells) {
-            Simplex<D>& cell = ghosts.cells.emplace_back();
-            Neighbors<D>& row = ghosts.neighbors.emplace_back();
-            for (std::size_t i = 0; i <= D; ++i) {
-                cell[i] = point_here(sent.vertices[i], ghosts);
-                row[i] = cell_here(sent.neighbors[i]);
-            }
-        }
-    }
-
-    Index cell_here(std::uint64_t number) const {
-        if (number - part_.range.first < part_.range.count) {
-            return static_cast<Index>(number - part_.range.first);
-        }
-        std::size_t before = part_.cells.size();
-        for (const Array<std::uint64_t>* list : {&tested_here_, &touching_here_}) {
-            const auto place = std::lower_bound(list->begin(), list->end(), number);
-            if (place != list->end() && *place == number) {
-                return static_cast<Index>(before + static_cast<std::size_t>(place - list->begin()));
-            }
-            before += list->size();
-        }
-        return no_index;
+        sent.each_cell(
+            [&](const CellInHull<D>& cell) { ghosts.numbers.append(cell, ghosts.cells, ghosts.neighbors); });
     }
 
     const HullPart<D>& part_;
@@ -428,8 +366,6 @@ private:
     PointSet touching_;
     std::vector<std::uint8_t> sizes_; ///< of groups of own cells, see group_sizes()
     Array<std::int32_t> owners_;
-    Array<std::uint64_t> tested_here_;   ///< numbers in the hull of cells received, ascending
-    Array<std::uint64_t> touching_here_; ///< the same
 };
 
 template<int D>
@@ -443,8 +379,8 @@ public:
         const Array<CapOf> caps = unproven_to_none(result.all);
         SearchAssembly<D> assembly{part_, ranks_, caps};
         const GhostsOfSearch<D> ghosts = assembly.run();
-        const PartialMesh<D> mesh{part_.cells,  part_.neighbors,  ghosts.outside,
-                                  ghosts.cells, ghosts.neighbors, {}};
+        const Array<Index> outside = ghosts.numbers.outside();
+        const PartialMesh<D> mesh{part_.cells, part_.neighbors, outside, ghosts.cells, ghosts.neighbors, {}};
         const JoinedSpans<Point<D + 1>> points{part_.points, ghosts.points};
         const CellGroups<D> groups{mesh, points.size(), caps, ghosts.sizes, assembly.touching()};
         const auto is_complete = [&](Index v) {
@@ -454,7 +390,7 @@ public:
             search_crossings<D>({points, mesh, groups, [](std::span<const Index>) {}, is_complete,
                                  [&](Array<StarState>& stars) { complete_stars_of(stars); }},
                                 limit_);
-        reduce(own, mesh, points, assembly, result);
+        reduce(own, mesh, points, ghosts.numbers, result);
         return result;
     }
 
@@ -486,7 +422,7 @@ private:
     }
 
     void reduce(const HullEmbedding<D>& own, const PartialMesh<D>& mesh,
-                const JoinedSpans<Point<D + 1>>& points, const SearchAssembly<D>& assembly,
+                const JoinedSpans<Point<D + 1>>& points, const LocalNumbering<D>& numbers,
                 PartsEmbedding<D>& result) const {
         HullEmbedding<D>& all = result.all;
         all.all_listed = ranks_.min(own.all_listed ? 1 : 0) == 1;
@@ -498,7 +434,7 @@ private:
         std::vector<CrossingInHull<D>> mine;
         for (const Crossing<D + 1>& crossing : own.crossings) {
             if (crossing.first != crossing.second) {
-                mine.push_back(in_hull(crossing, mesh, points, assembly));
+                mine.push_back(in_hull(crossing, mesh, points, numbers));
             }
         }
         const auto found = joined(ranks_.all_gather<CrossingInHull<D>>(mine));
@@ -514,12 +450,12 @@ private:
 
     static CrossingInHull<D> in_hull(const Crossing<D + 1>& crossing, const PartialMesh<D>& mesh,
                                      const JoinedSpans<Point<D + 1>>& points,
-                                     const SearchAssembly<D>& assembly) {
+                                     const LocalNumbering<D>& numbers) {
         CrossingInHull<D> result{crossing, {}};
         std::array<std::pair<std::uint64_t, std::array<double, 2>>, 2> cells;
         for (std::size_t k = 0; k < 2; ++k) {
             const Index cell = k == 0 ? crossing.first : crossing.second;
-            cells[k] = {assembly.number_of(cell), time_span<D>(points, {&mesh.cell(cell), 1})};
+            cells[k] = {numbers.in_hull(cell), time_span<D>(points, {&mesh.cell(cell), 1})};
         }
         std::sort(cells.begin(), cells.end());
         result.cells.first = static_cast<Index>(cells[0].first);

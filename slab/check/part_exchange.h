@@ -2,6 +2,7 @@
 // What ranks that hold parts of a hull ask each other.
 #pragma once
 
+#include "core/each_bit.h"
 #include "core/pieces.h"
 #include "slabhull/core/communicator.h"
 #include "slabhull/core/point_set.h"
@@ -65,14 +66,12 @@ inline std::span<const std::uint64_t> words_of_points(const PointSet& points, st
     return all.subspan(begin, std::min(count / 64, all.size() - begin));
 }
 
-/// Calls visit(k, bit) for the bits that are set, the k-th of them.
+/// Calls visit(k, point) for the points whose bits are set, the k-th of them.
 template<class Visit>
-void each_bit(std::span<const std::uint64_t> words, const Visit& visit) {
+void each_point_in(std::span<const std::uint64_t> words, const Visit& visit) {
     std::size_t k = 0;
     for (std::size_t w = 0; w < words.size(); ++w) {
-        for (std::uint64_t left = words[w]; left != 0; left &= left - 1) {
-            visit(k++, 64 * w + static_cast<std::size_t>(std::countr_zero(left)));
-        }
+        each_bit(words[w], [&](std::size_t bit) { visit(k++, 64 * w + bit); });
     }
 }
 
@@ -97,12 +96,12 @@ Array<T> lowest_at_points(const HullPart<D>& part, Communicator& ranks, std::spa
     Array<T> lowest;
     lowest.assign(at_home, std::numeric_limits<T>::max());
     for (std::size_t r = 0; r < count; ++r) {
-        each_bit(used_by[r], [&](std::size_t k, std::size_t point) {
+        each_point_in(used_by[r], [&](std::size_t k, std::size_t point) {
             lowest[point] = std::min(lowest[point], told[r][k]);
         });
     }
     for (std::size_t r = 0; r < count; ++r) { // the answers take the place of what was told
-        each_bit(used_by[r], [&](std::size_t k, std::size_t point) { told[r][k] = lowest[point]; });
+        each_point_in(used_by[r], [&](std::size_t k, std::size_t point) { told[r][k] = lowest[point]; });
     }
     return joined(ranks.all_to_all(told));
 }

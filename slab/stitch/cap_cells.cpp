@@ -18,7 +18,7 @@ Array<Row> redistributed_rows(const Array<Row>& rows, const HullRange& here, con
     std::vector<Array<Row>> to;
     for (const HullRange& there : ranks.gather(wanted)) {
         const std::size_t begin = std::max(here.first, there.first);
-        const std::size_t end = std::max(begin, std::min(here.first + here.count, there.first + there.count));
+        const std::size_t end = std::max(begin, std::min(here.end(), there.end()));
         to.emplace_back(rows.begin() + static_cast<std::ptrdiff_t>(std::min(begin - here.first, rows.size())),
                         rows.begin() + static_cast<std::ptrdiff_t>(std::min(end - here.first, rows.size())));
     }
@@ -57,7 +57,7 @@ template<int D>
 CapCells<D> terminating_cells_of(const HullPart<D>& part, const HullOrder<D>& order) {
     const std::size_t first_cell = order.terminating_begin();
     const std::size_t first_point = order.terminating_points_begin();
-    const std::size_t end = part.range.first + part.range.count;
+    const std::size_t end = part.range.end();
     const std::size_t begin = std::clamp(first_cell, part.range.first, end);
     CapCells<D> cap;
     cap.all = part.hull_cells - first_cell;

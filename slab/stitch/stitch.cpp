@@ -141,11 +141,10 @@ private:
 
     /// The cells of a range that are here, too.
     HullRange held(std::size_t first, std::size_t count) const {
-        const std::size_t begin = std::clamp(first, range_.first, range_.first + range_.count);
-        const std::size_t end = std::clamp(first + count, range_.first, range_.first + range_.count);
+        const std::size_t begin = std::clamp(first, range_.first, range_.end());
+        const std::size_t end = std::clamp(first + count, range_.first, range_.end());
         return {begin, end - begin};
     }
-    bool holds(std::size_t cell) const { return cell - range_.first < range_.count; }
 
     static void place_points(CapToStitch<D>& cap, Point<D + 1>* to, double t) {
         cap.release(&SpatialMesh<D>::vertex_ids);
@@ -201,7 +200,7 @@ private:
         std::size_t end = 0;
         if (here.count > 0) {
             first = (here.first - order_.initial_cells) / order_.cells_per_prism;
-            end = (here.first + here.count - order_.initial_cells - 1) / order_.cells_per_prism + 1;
+            end = (here.end() - order_.initial_cells - 1) / order_.cells_per_prism + 1;
         }
         choice_ = choose_templates<D>(options_, graph_, sweep_, points_, layers_to_choose(first, end));
         for_each_index(end - first, prisms_per_piece, [&](std::size_t k) {
@@ -232,7 +231,7 @@ private:
         const auto reached = reached_from(layer, facet);
         const std::size_t first = first_cell(layer, facet);
         for (std::size_t c = 0; c < filling.cells.size(); ++c) {
-            if (!holds(first + c)) {
+            if (!range_.contains(first + c)) {
                 continue; // a range may begin or end within a prism
             }
             const std::size_t row = first + c - range_.first;
@@ -320,7 +319,7 @@ private:
     }
 
     void set_neighbor(std::size_t cell, std::size_t place, Index neighbor) {
-        if (holds(cell)) {
+        if (range_.contains(cell)) {
             neighbors_[cell - range_.first][place] = neighbor;
         }
     }
@@ -371,7 +370,7 @@ private:
     void number_neighbors(HullPart<D>& part) const {
         for (const Neighbors<D>& row : part.neighbors) {
             for (const Index neighbor : row) {
-                if (!holds(neighbor)) {
+                if (!range_.contains(neighbor)) {
                     part.outside.push_back(neighbor);
                 }
             }
@@ -380,7 +379,7 @@ private:
         checked_index(part.cells.size() + part.outside.size(), "cells of a part");
         for_each_index(part.neighbors.size(), items_per_step, [&](std::size_t c) {
             for (Index& neighbor : part.neighbors[c]) {
-                if (holds(neighbor)) {
+                if (range_.contains(neighbor)) {
                     neighbor -= static_cast<Index>(range_.first);
                 } else {
                     const auto place =

@@ -102,7 +102,7 @@ void require_truth(const Room<D>& room, const MovedCap<D>& moved) {
     double smallest = 180;
     bool positive = true;
     for (const Simplex<D>& cell : room.mesh.cells) {
-        const auto corners = corners_of<D, D>(cell, std::span<const Point<D>>{moved.points});
+        const auto corners = corners_of<D, D>(cell, moved.points);
         smallest = std::min(smallest, dihedral_angles<D, D>(corners).smallest);
         positive = positive && signed_measure<D>(corners) > 0;
     }
@@ -137,8 +137,7 @@ Rows<D> reference_solution(const Room<D>& room, const Rows<D>& given) {
     std::vector<Eigen::Triplet<double>> triplets;
     Rows<D> right = Rows<D>::Zero(free, D);
     for (const Simplex<D>& cell : room.mesh.cells) {
-        const auto local =
-            reference_cell<D>(corners_of<D, D>(cell, std::span<const Point<D>>{room.mesh.points}));
+        const auto local = reference_cell<D>(corners_of<D, D>(cell, room.mesh.points));
         for (int i = 0; i <= D; ++i) {
             for (int j = 0; j <= D; ++j) {
                 const auto row = static_cast<Eigen::Index>(cell[static_cast<std::size_t>(i)]) - fixed;

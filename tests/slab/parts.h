@@ -2,6 +2,7 @@
 // Meshes divided among ranks, for tests.
 #pragma once
 
+#include "core/pieces.h"
 #include "geometry/embedding/embedded_caps.h"
 #include "slab/check/part_embedding.h"
 #include "slabhull/core/communicator.h"
@@ -28,18 +29,17 @@ HullPart<D> part_of(std::span<const Point<D + 1>> points, std::span<const Simple
     part.hull_cells = cells.size();
     part.range = range;
     auto used = std::make_shared<PointSet>(points.size());
-    for (std::size_t c = range.first; c < range.first + range.count; ++c) {
+    for (std::size_t c = range.first; c < range.end(); ++c) {
         part.cells.push_back(cells[c]);
         for (std::size_t i = 0; i <= D; ++i) {
             used->insert(cells[c][i]);
             const std::uint64_t n = neighbor_of(c, i);
-            if (n - range.first >= range.count) {
+            if (!range.contains(n)) {
                 part.outside.push_back(n);
             }
         }
     }
-    std::sort(part.outside.begin(), part.outside.end());
-    part.outside.erase(std::unique(part.outside.begin(), part.outside.end()), part.outside.end());
+    sort_out(part.outside);
     used->count();
     for (std::size_t c = 0; c < range.count; ++c) {
         Neighbors<D>& row = part.neighbors.emplace_back();
@@ -47,10 +47,9 @@ HullPart<D> part_of(std::span<const Point<D + 1>> points, std::span<const Simple
             part.cells[c][i] = static_cast<Index>(used->rank(part.cells[c][i]));
             const std::uint64_t n = neighbor_of(range.first + c, i);
             const auto place = std::lower_bound(part.outside.begin(), part.outside.end(), n);
-            row[i] = static_cast<Index>(n - range.first < range.count
-                                            ? n - range.first
-                                            : range.count +
-                                                  static_cast<std::size_t>(place - part.outside.begin()));
+            row[i] = static_cast<Index>(
+                range.contains(n) ? n - range.first
+                                  : range.count + static_cast<std::size_t>(place - part.outside.begin()));
         }
     }
     for (std::size_t v = 0; v < points.size(); ++v) {

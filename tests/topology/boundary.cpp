@@ -104,7 +104,8 @@ void require_twins_right(const Boundary<D>& boundary) {
             there.erase(boundary.facets()[twin.facet][twin.corner]);
             REQUIRE(here == there);
             REQUIRE(boundary.owns(f, i) != boundary.owns(twin.facet, twin.corner));
-            REQUIRE(boundary.component(f) == boundary.component(twin.facet));
+            REQUIRE(boundary.facet_components().component(f) ==
+                    boundary.facet_components().component(twin.facet));
         }
     }
 }
@@ -190,9 +191,7 @@ TEST_CASE("the boundary of a plane domain is a complex of its edges, with twins 
     const Boundary<2> boundary{surface};
     require_twins_right(boundary);
     CHECK(boundary.ridge_count() == 7);
-    REQUIRE(boundary.component_count() == 2);
-    CHECK(boundary.first_facet(0) == 0);
-    CHECK(boundary.first_facet(1) == 1);
+    CHECK(boundary.facet_components().facets() == std::vector<std::vector<Index>>{{0, 2, 3, 5}, {1, 4, 6}});
     CHECK(loops(boundary.mesh()).size() == 2);
     CHECK(boundary.vertices_of({7}) == std::vector<Index>{1, 4, 6});
     CHECK(boundary.vertices_of({2, 7}) == std::vector<Index>{0, 1, 4, 5, 6});
@@ -215,12 +214,15 @@ TEST_CASE("components are numbered by their first facet") {
     const auto two =
         specimens::shuffled(specimens::disjoint_union(specimens::sphere<2>(), specimens::torus<2>(4)), 3);
     const Boundary<3> boundary{surface_of(two)};
-    REQUIRE(boundary.component_count() == 2);
-    CHECK(boundary.first_facet(0) == 0);
-    CHECK(std::ranges::count(boundary.components(), 0u) + std::ranges::count(boundary.components(), 1u) ==
-          static_cast<std::ptrdiff_t>(boundary.facet_count()));
-    CHECK(std::ranges::find(boundary.components(), 1u) - boundary.components().begin() ==
-          boundary.first_facet(1));
+    const FacetComponents<3>& components = boundary.facet_components();
+    REQUIRE(components.count() == 2);
+    CHECK(components.first_facet(0) == 0);
+    const std::vector<std::vector<Index>> facets = components.facets();
+    CHECK(facets[0].size() + facets[1].size() == boundary.facet_count());
+    for (Index c = 0; c < 2; ++c) {
+        CHECK(facets[c].front() == components.first_facet(c));
+        CHECK(std::ranges::all_of(facets[c], [&](Index f) { return components.component(f) == c; }));
+    }
 }
 
 TEST_CASE("tracks, patches and ids are properties") {

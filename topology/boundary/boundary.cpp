@@ -6,11 +6,9 @@
 
 #include "slabhull/core/error.h"
 #include "slabhull/core/vector.h"
-#include "slabhull/topology/dual_graph.h"
 #include "slabhull/topology/halfedge_mesh.h"
 #include "slabhull/topology/simplicial_complex.h"
 
-#include <boost/graph/connected_components.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -86,7 +84,6 @@ Boundary<D>::Boundary(Surface<D> surface, Array<TrackId> tracks, Array<double> s
     made->tracks = std::move(tracks);
     made->spacing = std::move(spacing);
     connect(*made);
-    find_components(*made);
     data_ = std::move(made);
 }
 
@@ -106,17 +103,7 @@ void Boundary<D>::connect(Data& data) {
                 corner_not_in<D>(surface.facets[f], surface.facets[data.neighbors[f][i]]);
         }
     }
-}
-
-template<int D>
-void Boundary<D>::find_components(Data& data) {
-    data.component.resize(data.neighbors.size());
-    boost::connected_components(DualGraph<D - 1>{data.neighbors}, data.component.data());
-    for (Index facet = 0; facet < data.component.size(); ++facet) {
-        if (data.component[facet] == data.first_facet.size()) {
-            data.first_facet.push_back(facet);
-        }
-    }
+    data.components = FacetComponents<D>{data.neighbors};
 }
 
 template<int D>

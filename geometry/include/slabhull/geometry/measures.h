@@ -54,9 +54,9 @@ struct AspectRatios {
 template<int D, int N>
 AspectRatios aspect_ratios(std::span<const Point<N>> points, std::span<const Simplex<D>> cells);
 
-/// The corners of a cell.
-template<int D, int N>
-std::array<Point<N>, D + 1> corners_of(const Simplex<D>& cell, std::span<const Point<N>> points) {
+/// The corners of a cell; `points` is any list of Point<N>.
+template<int D, int N, class Points>
+std::array<Point<N>, D + 1> corners_of(const Simplex<D>& cell, const Points& points) {
     std::array<Point<N>, D + 1> corners;
     for (std::size_t i = 0; i <= D; ++i) {
         corners[i] = points[cell[i]];

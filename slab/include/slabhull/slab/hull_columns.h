@@ -31,6 +31,9 @@ Column<std::int64_t> neighbor_column(std::span<const std::array<Index, N>> neigh
 struct HullRange {
     std::size_t first = 0;
     std::size_t count = 0;
+
+    std::size_t end() const { return first + count; }
+    bool contains(std::size_t cell) const { return cell - first < count; }
 };
 
 /// A column of value(c) for each cell c of a range, constant up to cell end_of(c) at least. Filling runs is

@@ -4,6 +4,7 @@
 #include "slabhull/core/array.h"
 #include "slabhull/core/patch.h"
 #include "slabhull/core/point.h"
+#include "slabhull/topology/facet_components.h"
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <array>
@@ -70,6 +71,8 @@ public:
     TwinFacet twin(std::size_t facet, std::size_t ridge) const {
         return {data().neighbors[facet][ridge], data().twin_corner[facet][ridge]};
     }
+    /// Which facets are connected.
+    const FacetComponents<D>& facet_components() const { return data().components; }
     std::size_t ridge_count() const { return data().ridges; }
     /// Of the facets beside a ridge, the first one counts as its owner.
     bool owns(std::size_t facet, std::size_t ridge) const { return facet < neighbors()[facet][ridge]; }
@@ -77,13 +80,6 @@ public:
     std::vector<double> shortest_edges(std::span<const Point<D>> places) const;
     /// Mean length of the facet edges at each vertex.
     std::vector<double> mean_edges(std::span<const Point<D>> places) const;
-
-    // --- connected components, numbered by their first facet
-
-    std::size_t component_count() const { return data().first_facet.size(); }
-    Index component(std::size_t facet) const { return data().component[facet]; }
-    std::span<const Index> components() const { return data().component; } ///< of each facet
-    Index first_facet(std::size_t component) const { return data().first_facet[component]; }
 
     // --- properties
 
@@ -124,12 +120,10 @@ private:
         Array<Neighbors<D - 1>> neighbors;
         Array<std::array<std::uint8_t, D>> twin_corner;
         std::size_t ridges = 0;
-        std::vector<Index> component;
-        std::vector<Index> first_facet; ///< of each component
+        FacetComponents<D> components;
     };
     const Data& data() const { return *data_; }
     static void connect(Data& data);
-    static void find_components(Data& data);
 
     std::shared_ptr<const Data> data_;
     Array<Index> mesh_vertices_;
