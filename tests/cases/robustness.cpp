@@ -89,7 +89,7 @@ TEST_CASE("Every seed and every file that once broke a reader is refused, or rea
 }
 
 TEST_CASE("Ten thousand bytes of each format's files, changed one at a time, break no reader", "[readers]") {
-    constexpr int count = rounds(6000); // the fuzzers have the sanitizers, too
+    const int count = rounds(6000); // the fuzzers have the sanitizers, too
     for (const fuzz::Reader& reader : fuzz::readers()) {
         CAPTURE(reader.name);
         std::vector<std::string> files = valid_files(reader);

@@ -255,7 +255,7 @@ void check_refusal(const GeometryError& refusal, const Pairs& expected) {
 
 TEMPLATE_TEST_CASE_SIG("random sound hulls are proven, as by pairs", "[embedding]", ((int D), D), 2, 3) {
     Random random{17};
-    for (int k = 0; k < rounds(40); ++k) {
+    for (int k = 0; k < rounds(12); ++k) {
         const Soup<D> hull = with_moved_body<D>(random, 0.3, 0.2, 0.03);
         const HullEmbedding<D> found = examine(hull);
         REQUIRE(found.crossings.empty());
@@ -264,10 +264,10 @@ TEMPLATE_TEST_CASE_SIG("random sound hulls are proven, as by pairs", "[embedding
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("20 random bodies that go through walls or themselves are found, as by pairs",
+TEMPLATE_TEST_CASE_SIG("random bodies that go through walls or themselves are found, as by pairs",
                        "[embedding]", ((int D), D), 2, 3) {
     Random random{23};
-    for (int planted = 0; planted < rounds(20);) {
+    for (int planted = 0; planted < rounds(8);) {
         const bool through_itself = planted % 2 == 0;
         const Soup<D> hull = through_itself ? with_moved_body<D>(random, 3, 0.1, 0.1)
                                             : with_moved_body<D>(random, 0.1, 3, 0.1);
@@ -342,11 +342,11 @@ TEST_CASE("cells in any order are proven as well, only less quickly", "[embeddin
     CHECK(found.proven_stars > found.stars / 2);
 }
 
-TEMPLATE_TEST_CASE_SIG("a run refuses 20 random bodies that cross between levels, and writes nothing",
+TEMPLATE_TEST_CASE_SIG("a run refuses random bodies that cross between levels, and writes nothing",
                        "[embedding]", ((int D), D), 2, 3) {
     TwoBodies<D> scene{37};
-    for (int planted = 0, tried = 0; planted < rounds(20); ++tried) {
-        REQUIRE(tried < 60);
+    for (int planted = 0, tried = 0; planted < rounds(8); ++tried) {
+        REQUIRE(tried < rounds(24));
         Case the_case = planted % 2 == 0 ? scene.changing_places() : scene.turning();
         const Pairs expected = pairs_without_proof<D>(the_case);
         const scratch::Folder folder;
@@ -366,10 +366,10 @@ TEMPLATE_TEST_CASE_SIG("a run refuses 20 random bodies that cross between levels
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a run refuses none of 40 random slabs that are sound", "[embedding]", ((int D), D), 2,
+TEMPLATE_TEST_CASE_SIG("a run refuses no random slabs that are sound", "[embedding]", ((int D), D), 2,
                        3) {
     TwoBodies<D> scene{41};
-    for (int k = 0; k < rounds(40); ++k) {
+    for (int k = 0; k < rounds(12); ++k) {
         const scratch::Folder folder;
         Case the_case = scene.apart();
         the_case.directory = folder / "out";

@@ -310,7 +310,7 @@ TEST_CASE("over a thousand slabs no id is given twice, and each initial cap is t
     }
     March<2> march{quarter_disk(), settings};
     PersistentId highest = march.state().ids.next - 1;
-    constexpr int slabs = rounds(1000);
+    const int slabs = rounds(1000);
     for (int k = 0; k < slabs; ++k) {
         const double begin = march.state().time;
         Slab<2> slab = march.propose({begin, begin + 0.01});

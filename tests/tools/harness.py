@@ -11,6 +11,7 @@ from pathlib import Path
 PROGRAM = os.environ["SLABHULL_PROGRAM"]
 ROOT = Path(os.environ["SLABHULL_ROOT"])
 SANITIZED = "SLABHULL_SANITIZED" in os.environ  # ten times slower: fewer rounds do there
+LARGE = "SLABHULL_LARGE" in os.environ  # minutes, not seconds
 long = unittest.skipIf(SANITIZED, "too long under sanitizers, and shorter tests run the same code")
 SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from random import Random
 
 import harness
-from harness import PROGRAM, ROOT, ProgramTest, Result, slabhull
+from harness import LARGE, PROGRAM, ROOT, ProgramTest, Result, slabhull
 
 MPIRUN = shutil.which("mpirun")
 LAUNCH = [MPIRUN, "--oversubscribe", "--bind-to", "none", "-n"]
@@ -35,7 +35,6 @@ def have_mpi():
 
 HAVE_MPI = have_mpi()
 
-LARGE = "SLABHULL_LARGE" in os.environ  # minutes, not seconds
 
 OUTPUT = '[output]\nformats = ["pvtu", "msh"]\n'
 
