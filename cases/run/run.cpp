@@ -639,30 +639,49 @@ private:
         }
     }
 
-    /// The filling; none when the case wants none, or when the cap was meshed anew.
+    /// The filling; none when the case wants none, or when the cap was meshed anew. In ranks the first has
+    /// it, which is given the whole hull for that time.
     std::optional<Filled> fill(const Slab<D>& slab, StageClock& clock) const {
         if (!case_.fill) {
             return std::nullopt;
         }
-        const bool march = case_.fill->method == FillMethod::march;
-        if (march && !slab.cap_moved) {
+        if (case_.fill->method == FillMethod::march && !slab.cap_moved) {
             listener_.warning(fmt::format("slab {} is not filled: its terminating cap was meshed anew, since "
                                           "moving it left angles below cap.reuse_angle",
                                           slab.hull.slab));
             return std::nullopt;
         }
-        const double before = clock.total();
         enter_stage("filling");
-        Filled filled{march ? fill_slab(slab, clock) : fill_by_tetgen(slab.hull, clock), {}};
-        const FillingReport checked = check_filling<D>(columns_of(filled.mesh), &slab.hull);
+        if (!slab.part) {
+            return fill_and_check(slab, slab.hull, clock);
+        }
+        const Hull<D> whole = gather_hull(*slab.part, slab.hull, *ranks_);
+        clock.book("gathering the hull");
+        return together(*ranks_, [&] {
+            return first() ? std::optional{fill_and_check(slab, whole, clock)} : std::nullopt;
+        });
+    }
+
+    /// `hull` is the slab's, whole.
+    Filled fill_and_check(const Slab<D>& slab, const Hull<D>& hull, StageClock& clock) const {
+        const double before = clock.total();
+        Filled filled{make_filling(slab, hull, clock), {}};
+        const FillingReport checked = check_filling<D>(columns_of(filled.mesh), &hull);
         clock.book("checking the filling");
         if (!checked.clean()) {
             throw GeometryError{fmt::format("the filling of slab {} has {} defects and was not written:\n{}",
-                                            slab.hull.slab, checked.total(), findings_as_text(checked))};
+                                            hull.slab, checked.total(), findings_as_text(checked))};
         }
-        filled.report = as_json(checked, filled.mesh, filling_quality(filled.mesh, slab.hull.layers),
-                                clock.total() - before);
+        filled.report =
+            as_json(checked, filled.mesh, filling_quality(filled.mesh, hull.layers), clock.total() - before);
         return filled;
+    }
+
+    Filling<D> make_filling(const Slab<D>& slab, const Hull<D>& hull, StageClock& clock) const {
+        if (case_.fill->method != FillMethod::march) {
+            return fill_by_tetgen(hull, clock);
+        }
+        return slab.adapted ? fill_adapted(hull, slab.adapted->log, clock) : fill_slab(hull, clock);
     }
 
     Filling<D> fill_by_tetgen(const Hull<D>& hull, StageClock& clock) const {
