@@ -103,9 +103,6 @@ Case case_in_ranks(Case the_case, int ranks) {
     if (the_case.cap_reuse == CapReuse::adapt) {
         refuse("cap.reuse: \"adapt\" does not work in ranks yet: \"move\" does, or run without mpirun");
     }
-    if (the_case.fill) {
-        refuse("[fill]: slabs are not filled in ranks yet: leave it out, or run without mpirun");
-    }
     for (const std::string& format : the_case.formats) {
         if (io::format_named(format)->write_piece == nullptr) {
             refuse(fmt::format("output.formats: \"{}\" is one file, and ranks write one each: \"pvtu\" and "

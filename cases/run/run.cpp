@@ -477,26 +477,46 @@ private:
         }
         const std::vector<Array<char>> all = ranks_->all_gather<char>(lines);
         for (std::size_t r = 1; r < all.size() && first(); ++r) {
-            for (auto begin = all[r].begin(); begin != all[r].end();) {
-                const auto end = std::find(begin, all[r].end(), '\0');
-                result_.files.emplace_back(std::string{begin, end});
-                begin = end + 1;
+            for (std::string& path : texts_of(all[r])) {
+                result_.files.emplace_back(std::move(path));
             }
         }
     }
 
+    /// Texts that end with a zero each.
+    static std::vector<std::string> texts_of(const Array<char>& joined) {
+        std::vector<std::string> texts;
+        for (auto begin = joined.begin(); begin != joined.end();) {
+            const auto end = std::find(begin, joined.end(), '\0');
+            texts.emplace_back(begin, end);
+            begin = end + 1;
+        }
+        return texts;
+    }
+
+    /// CPU time of each rank in the stages that the first has been through: it may have more than others.
+    Json stages_of_ranks(const StageClock& clock) const {
+        std::string names;
+        for (const auto& [stage, cpu] : clock.cpu_stages()) {
+            names += stage + '\0';
+        }
+        Json stages = Json::object();
+        for (const std::string& name : texts_of(ranks_->broadcast<char>(names, 0))) {
+            const auto of_name = [&](const auto& stage) { return stage.first == name; };
+            const auto found = std::ranges::find_if(clock.cpu_stages(), of_name);
+            stages[name] = ranks_->gather(found != clock.cpu_stages().end() ? found->second : 0.0);
+        }
+        return stages;
+    }
+
     /// What each rank has and takes.
     Json report_of_ranks(const Slab<D>& slab, const StageClock& clock) const {
-        Json stages = Json::object();
-        for (const auto& [stage, cpu] : clock.cpu_stages()) { // the same stages on all ranks
-            stages[stage] = ranks_->gather(cpu);
-        }
         return {{"number", ranks_->size()},
                 {"cells", ranks_->gather(slab.part->cells.size())},
                 {"peak_memory", ranks_->gather(peak_memory())},
                 {"mesher_peak_memory", ranks_->gather(peak_memory_of_children())},
                 {"cpu_seconds", ranks_->gather(cpu_seconds())},
-                {"stage_cpu_seconds", std::move(stages)},
+                {"stage_cpu_seconds", stages_of_ranks(clock)},
                 {"sent_bytes", ranks_->gather(ranks_->sent_bytes())},
                 {"meetings", ranks_->meetings()}};
     }
@@ -644,30 +664,49 @@ private:
         }
     }
 
-    /// The filling; none when the case wants none, or when the cap was meshed anew.
+    /// The filling; none when the case wants none, or when the cap was meshed anew. In ranks the first has
+    /// it, which is given the whole hull for that time.
     std::optional<Filled> fill(const Slab<D>& slab, StageClock& clock) const {
         if (!case_.fill) {
             return std::nullopt;
         }
-        const bool march = case_.fill->method == FillMethod::march;
-        if (march && !slab.cap_moved) {
+        if (case_.fill->method == FillMethod::march && !slab.cap_moved) {
             listener_.warning(fmt::format("slab {} is not filled: its terminating cap was meshed anew, since "
                                           "moving it left angles below cap.reuse_angle",
                                           slab.hull.slab));
             return std::nullopt;
         }
-        const double before = clock.total();
         enter_stage("filling");
-        Filled filled{march ? fill_slab(slab, clock) : fill_by_tetgen(slab.hull, clock), {}};
-        const FillingReport checked = check_filling<D>(columns_of(filled.mesh), &slab.hull);
+        if (!slab.part) {
+            return fill_and_check(slab, slab.hull, clock);
+        }
+        const Hull<D> whole = gather_hull(*slab.part, slab.hull, *ranks_);
+        clock.book("gathering the hull");
+        return together(*ranks_, [&] {
+            return first() ? std::optional{fill_and_check(slab, whole, clock)} : std::nullopt;
+        });
+    }
+
+    /// `hull` is the slab's, whole.
+    Filled fill_and_check(const Slab<D>& slab, const Hull<D>& hull, StageClock& clock) const {
+        const double before = clock.total();
+        Filled filled{make_filling(slab, hull, clock), {}};
+        const FillingReport checked = check_filling<D>(columns_of(filled.mesh), &hull);
         clock.book("checking the filling");
         if (!checked.clean()) {
             throw GeometryError{fmt::format("the filling of slab {} has {} defects and was not written:\n{}",
-                                            slab.hull.slab, checked.total(), findings_as_text(checked))};
+                                            hull.slab, checked.total(), findings_as_text(checked))};
         }
-        filled.report = as_json(checked, filled.mesh, filling_quality(filled.mesh, slab.hull.layers),
-                                clock.total() - before);
+        filled.report =
+            as_json(checked, filled.mesh, filling_quality(filled.mesh, hull.layers), clock.total() - before);
         return filled;
+    }
+
+    Filling<D> make_filling(const Slab<D>& slab, const Hull<D>& hull, StageClock& clock) const {
+        if (case_.fill->method != FillMethod::march) {
+            return fill_by_tetgen(hull, clock);
+        }
+        return slab.part ? fill_slab(hull, clock) : fill_slab(slab, clock);
     }
 
     Filling<D> fill_by_tetgen(const Hull<D>& hull, StageClock& clock) const {

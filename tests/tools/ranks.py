@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`mpirun -n N slabhull build`: the bytes of one process that writes as many pieces, errors that all ranks end with, ranks that die."""
+"""`mpirun -n N slabhull build`: the bytes of one process that writes as many pieces, fillings, errors that all ranks end with, ranks that die."""
 import json
 import os
 import shutil
@@ -11,7 +11,7 @@ from pathlib import Path
 from random import Random
 
 import harness
-from harness import LARGE, PROGRAM, ROOT, ProgramTest, Result, slabhull
+from harness import LARGE, PROGRAM, ROOT, ProgramTest, Result, needs_formats, slabhull
 
 MPIRUN = shutil.which("mpirun")
 LAUNCH = [MPIRUN, "--oversubscribe", "--bind-to", "none", "-n"]
@@ -114,6 +114,79 @@ class SameBytes(RanksTest):
         self.same_files(whole, self.in_ranks(3, self.case(text)))
 
 
+MOVED = '[cap]\nreuse = "move"\n'
+
+
+def fill_table(formats, more=""):
+    return f'[fill]\nformats = {json.dumps(formats)}\n{more}'
+
+
+class Fill(RanksTest):
+    """The first rank gathers each hull and fills it."""
+
+    def fill_reports(self, out):
+        """By slab, what the report tells of its filling, without the time that it took."""
+        slabs = json.loads((out / "report.json").read_text())["slabs"]
+        return [{key: value for key, value in slab.get("fill", {}).items() if key != "seconds"} for slab in slabs]
+
+    def same_fillings(self, text, ranks, count, name="a"):
+        """Builds alone and in ranks; `count` fillings come out. Returns the folder of the ranks."""
+        whole = self.alone(text, ranks, f"alone-{name}-{ranks}")
+        out = self.in_ranks(ranks, self.case(text), out=f"ranks-{name}-{ranks}")
+        self.same_files(whole, out)
+        self.assertEqual(self.fill_reports(whole), self.fill_reports(out))
+        self.assertEqual(len(list(out.glob("fill_*"))), count)
+        return out
+
+    def test_in_the_plane(self):
+        text = circle("centre", MOVED + fill_table(["mfem", "getfem", "vtu", "msh"]))
+        for ranks in (1, 2, 3):
+            with self.subTest(ranks=ranks):
+                self.same_fillings(text, ranks, 8)
+
+    def test_in_space(self):
+        for ranks, split in [(2, "A"), (3, "C")] + ([(1, "B"), (4, "E")] if LARGE else []):
+            with self.subTest(ranks=ranks, split=split):
+                text = sphere(split, more=f"{MOVED}blocks = {ranks}\n" + fill_table(["mfem", "getfem"]))
+                self.same_fillings(text.replace("layers = 2", "layers = 3"), ranks, 4, split)
+
+    @needs_formats("h5")
+    def test_hdf5(self):
+        self.same_fillings(circle("diagonal", MOVED + fill_table(["h5"])), 2, 2)
+
+    def test_by_tetgen(self):
+        self.same_fillings(circle("centre", fill_table(["vtu"], 'method = "tetgen"\n')), 2, 2)
+
+    def test_a_slab_meshed_anew_is_not_filled_and_one_rank_says_so(self):
+        case = self.case(circle("centre", MOVED + "reuse_angle = 60\n" + fill_table(["mfem"])))
+        alone = slabhull("build", case, "--out", self.dir / "alone", "--quiet")
+        result = mpirun(2, "build", self.case(case.read_text()), "--out", self.dir / "out", "--quiet")
+        self.assertEqual((alone.code, result.code), (0, 0), result.err)
+        self.assertEqual(our_lines(result.err), our_lines(alone.err))
+        self.assertIn("is not filled", result.err)
+        self.assertEqual(list((self.dir / "out").glob("fill_*")), [])
+
+    def test_simplices_that_would_be_inverted_end_the_run_on_all_ranks(self):
+        text = sphere("A", more=MOVED + "blocks = 1\nreuse_angle = 0.1\n" + fill_table(["mfem"])).replace("layers = 2", "layers = 1")
+        text = text.replace("expanding-sphere", "ellipsoid").replace("slabs = 2", "slabs = 1\nend = 0.4")  # turns by 36 degrees
+        alone = slabhull("build", self.case(text), "--out", self.dir / "alone", "--quiet")
+        self.assertEqual(alone.code, 4, alone.err)
+        self.assertIn("simplices of the filling would be inside out", alone.err)
+        result = mpirun(3, "build", self.case(text), "--out", self.dir / "out", "--quiet")
+        self.assertEqual(result.code, 4, result.err)
+        self.assertEqual(our_lines(result.err), our_lines(alone.err))
+        self.assertEqual(list((self.dir / "out").iterdir()), [])
+
+    def test_a_run_goes_on_in_another_number_of_ranks(self):
+        text = circle("diagonal", MOVED + fill_table(["mfem", "vtu"]))
+        whole = self.in_ranks(3, self.case(text), out="whole")
+        out = self.in_ranks(2, self.case(text.replace("slabs = 2", "slabs = 1\nend = 0.5")), out="out")
+        self.in_ranks(3, self.case(text), "--resume", out="out")
+        for path in [*whole.glob("fill_*"), *whole.glob("slab_0001*"), *whole.glob("cap_*")]:
+            self.assertEqual((out / path.name).read_bytes(), path.read_bytes(), path.name)
+        self.assertEqual(self.fill_reports(out), self.fill_reports(whole))
+
+
 class Report(RanksTest):
     def test_tells_of_each_rank_and_one_rank_speaks(self):
         out = self.dir / "out"
@@ -146,7 +219,6 @@ class Refused(RanksTest):
         self.refused_in_ranks(circle("centre").replace('"pvtu"', '"vtu"'), 2, "output.formats", "vtu")
         self.refused_in_ranks(circle("centre") + "pieces = 5\n", 2, "output.pieces", "2 ranks")
         self.refused_in_ranks(circle("centre", '[cap]\nreuse = "adapt"\n'), 2, "cap.reuse", "adapt")
-        self.refused_in_ranks(circle("centre", '[cap]\nreuse = "move"\n[fill]\nformats = ["mfem"]\n'), 2, "[fill]")
 
     def test_a_case_file_that_is_not_there(self):
         result = mpirun(3, "build", self.dir / "none.toml")

@@ -31,7 +31,7 @@ struct RunOptions {
 /// of the steps.
 /// In ranks, N of them: each makes and writes its piece, as with `output.pieces = N` and, where the case does
 /// not say otherwise, `cap.blocks = N`; the bytes are those of such a run of one process. The first rank
-/// checks hulls, keeps the report and tells the listener; the others' listeners hear nothing. All files of a
+/// fills slabs, keeps the report and tells the listener; the others' listeners hear nothing. All files of a
 /// slab get their names, or none. What goes wrong on one rank is thrown on all. Throws UsageError for what
 /// ranks cannot do (docs/ranks.md), naming the setting.
 RunResult run_case(const Case& the_case, const Listener& listener, const RunOptions& options = {});
