@@ -4,8 +4,8 @@
     bench/ranks.py PROGRAM [--level 4] [--layers 0] [--ranks 1,2,4] [--rounds 3] [--folder DIR]
 
 expanding-sphere, one slab, one .pvtu, with the proof of embedding. A run in N ranks counts when its pieces equal those that
-one process writes with output.pieces = N and cap.blocks = N, byte for byte. A line of JSON each; at the end, CPU of a rank
-is fitted to a + b/N, and medians are printed.
+one process writes with output.pieces = N and cap.blocks = N, byte for byte. A line of JSON each; at the end, medians are
+printed, CPU of all ranks by stage among them, and CPU of a rank is fitted to a + b/N.
 """
 import argparse
 import filecmp
@@ -59,7 +59,7 @@ def one_turn(program, case_text, ranks, folder):
     require_same(folder / "alone", folder / "ranks")
     told = report["slabs"][0]["ranks"]
     return {"ranks": ranks, "cells": sum(told["cells"]), "one_process_cpu": cpu, "cpu_of_ranks": told["cpu_seconds"],
-            "peak_memory": told["peak_memory"], "one_process_peak": alone["peak_memory"]["bytes"],
+            "stage_cpu": told["stage_cpu_seconds"], "peak_memory": told["peak_memory"], "one_process_peak": alone["peak_memory"]["bytes"],
             "sent_bytes": told["sent_bytes"], "meetings": told["meetings"], "seconds": report["slabs"][0]["seconds"],
             "one_process_seconds": alone["slabs"][0]["seconds"]}
 
@@ -99,6 +99,8 @@ def main():
             "one_process_peak": statistics.median(turn["one_process_peak"] for turn in of_count),
             "cpu_of_all": statistics.median(sum(turn["cpu_of_ranks"]) for turn in of_count),
             "one_process_cpu": statistics.median(turn["one_process_cpu"] for turn in of_count),
+            "stages": {stage: round(statistics.median(sum(turn["stage_cpu"][stage]) for turn in of_count), 3)
+                       for stage in of_count[0]["stage_cpu"]},
             "sent_bytes": statistics.median(sum(turn["sent_bytes"]) for turn in of_count)}}))
     if len(counts) > 1:
         print(json.dumps(fit(turns)))

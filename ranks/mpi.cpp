@@ -162,7 +162,7 @@ protected:
 private:
     /// Sleeps between questions, longer and longer: a rank that waits leaves its core to those that work.
     void wait_for(std::span<MPI_Request> requests) const {
-        constexpr std::chrono::microseconds longest{500};
+        constexpr std::chrono::microseconds longest{2000};
         std::chrono::microseconds pause{10};
         for (int questions = 0;; ++questions) {
             int done = 0;

@@ -315,15 +315,20 @@ private:
     }
 
     void list_points_of(SentCells<D>& there) const {
-        Array<std::uint64_t> numbers;
-        there.each_cell([&](const CellInHull<D>& cell) {
-            numbers.insert(numbers.end(), cell.vertices.begin(), cell.vertices.end());
-        });
-        sort_out(numbers);
-        there.points.reserve(numbers.size());
-        for (const std::uint64_t number : numbers) {
-            there.points.push_back({number, part_.points[part_.points_used->rank(number)]});
+        if (there.tested.empty() && there.touching.empty()) {
+            return;
         }
+        PointSet used{part_.points.size()};
+        there.each_cell([&](const CellInHull<D>& cell) {
+            for (const std::uint64_t number : cell.vertices) {
+                used.insert(part_.points_used->rank(number));
+            }
+        });
+        used.count();
+        there.points.reserve(used.size());
+        each_point_in(used.words(), [&](std::size_t, std::size_t point) {
+            there.points.push_back({part_.points_used->member(point), part_.points[point]});
+        });
     }
 
     // --- what is here
