@@ -9,8 +9,8 @@
 namespace slabhull {
 
 /// Some of the points of a mesh (or of its cells), numbered in ascending order: a bit per point, and counts
-/// of 16 bytes per 512 and 4 per 512 members. Reading is safe from several threads. Source: Vigna, "Broadword implementation of
-/// rank/select queries", WEA 2008 (rank9).
+/// of 16 bytes per 512 and 4 per 512 members. Reading is safe from several threads. Source: Vigna, "Broadword
+/// implementation of rank/select queries", WEA 2008 (rank9).
 class PointSet {
 public:
     explicit PointSet(std::size_t points) : points_{points}, words_(words_for(points)) {}
