@@ -124,6 +124,7 @@ class Adapted(ProgramTest):
         result = slabhull("check", out / f"fill_{slab:04}.{extension}", "--hull", out / f"slab_{slab:04}.vtu", "--json")
         self.assertEqual(result.code, 0, result.out + result.err)
 
+    @harness.longest
     def test_an_airfoil_turns_once_and_every_slab_is_filled(self):
         out, report = self.build(self.case(AIRFOIL.format(root=harness.ROOT)))
         self.assertEqual(len(report["slabs"]), 10)
@@ -278,6 +279,7 @@ class Adapted(ProgramTest):
         for name in [f"slab_{slab:04}.vtu" for slab in range(20)] + ["cap_0020.vtu", "fill_0019.getfem"]:
             self.assertEqual((out / name).read_bytes(), (self.dir / "resumed" / name).read_bytes(), name)
 
+    @harness.longest
     def test_a_sphere_becomes_a_needle(self):
         out, report = self.build(self.case(NEEDLE.format(root=harness.ROOT)))
         self.assertGreater(self.on_boundary(report), 50)

@@ -13,6 +13,7 @@ ROOT = Path(os.environ["SLABHULL_ROOT"])
 SANITIZED = "SLABHULL_SANITIZED" in os.environ  # ten times slower: fewer rounds do there
 LARGE = "SLABHULL_LARGE" in os.environ  # minutes, not seconds
 long = unittest.skipIf(SANITIZED, "too long under sanitizers, and shorter tests run the same code")
+longest = unittest.skipUnless(LARGE, "in the test of the same name and _longer")
 SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 
 # Hulls of 6,000 triangles and 30,000 tetrahedra, for what does not depend on their size.
