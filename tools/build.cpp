@@ -96,8 +96,12 @@ int build(const BuildOptions& options) {
     if (options.threads == 0) {
         set_thread_count(std::max(1, thread_count() / started->on_this_machine));
     }
+    // The first rank tells of an error while the others are still there: where one ends with an error, mpirun
+    // ends all.
     return run_in_mpi(
-        [&options](Communicator& ranks) { return together(ranks, [&] { return build(options, &ranks); }); },
+        [&options](Communicator& ranks) {
+            return exit_code_of([&] { return together(ranks, [&] { return build(options, &ranks); }); });
+        },
         rank_timeout());
 }
 

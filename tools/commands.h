@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <functional>
+
 namespace slabhull::tools {
 
 /// Each adds a subcommand to the program. What it does goes to its callback; its exit code to `exit_code`.
@@ -15,6 +17,10 @@ void add_new(CLI::App& program, int& exit_code);
 void add_slice(CLI::App& program, int& exit_code);
 void add_study(CLI::App& program, int& exit_code);
 void add_view(CLI::App& program, int& exit_code);
+
+/// Does work that returns its exit code. Where it throws, says so on standard error and returns that of the
+/// error.
+int exit_code_of(const std::function<int()>& work);
 
 /// What is wrong with a command line, with the command or option that may have been meant.
 std::string usage_fault(const CLI::App& program, const CLI::ParseError& error);

@@ -61,6 +61,23 @@ void answer_signal(int number) {
 
 } // namespace
 
+int slabhull::tools::exit_code_of(const std::function<int()>& work) {
+    try {
+        return work();
+    } catch (const slabhull::Interrupted&) {
+        constexpr int by_signal = 128;
+        return complain(
+            "interrupted; no file is half-written. build --resume goes on after the last whole slab",
+            by_signal + (stop_signal != 0 ? stop_signal.load() : SIGTERM)); // or another rank was told
+    } catch (const slabhull::Error& error) {
+        return complain(error.what(), static_cast<int>(error.failure()));
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory; a coarser mesh, fewer layers or more memory would help", failed);
+    } catch (const std::exception& error) {
+        return complain(error.what(), failed);
+    }
+}
+
 int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN); // a file size limit becomes an error message, like a full disk
     answer_signal(SIGINT);
@@ -80,23 +97,14 @@ int main(int argc, char** argv) {
     slabhull::tools::add_study(program, exit_code);
     slabhull::tools::add_view(program, exit_code);
     program.parse_complete_callback([&program] { require_one_process(program); });
-    try {
-        program.parse(argc, argv);
-        return exit_code;
-    } catch (const CLI::Success& wish) { // --help, --version
-        return program.exit(wish);
-    } catch (const CLI::ParseError& error) {
-        return complain(slabhull::tools::usage_fault(program, error), wrong_usage);
-    } catch (const slabhull::Interrupted&) {
-        constexpr int by_signal = 128;
-        return complain(
-            "interrupted; no file is half-written. build --resume goes on after the last whole slab",
-            by_signal + (stop_signal != 0 ? stop_signal.load() : SIGTERM)); // or another rank was told
-    } catch (const slabhull::Error& error) {
-        return complain(error.what(), static_cast<int>(error.failure()));
-    } catch (const std::bad_alloc&) {
-        return complain("out of memory; a coarser mesh, fewer layers or more memory would help", failed);
-    } catch (const std::exception& error) {
-        return complain(error.what(), failed);
-    }
+    return slabhull::tools::exit_code_of([&] {
+        try {
+            program.parse(argc, argv);
+            return exit_code;
+        } catch (const CLI::Success& wish) { // --help, --version
+            return program.exit(wish);
+        } catch (const CLI::ParseError& error) {
+            return complain(slabhull::tools::usage_fault(program, error), wrong_usage);
+        }
+    });
 }

@@ -106,7 +106,7 @@ Case case_in_ranks(Case the_case, int ranks) {
     for (const std::string& format : the_case.formats) {
         if (io::format_named(format)->write_piece == nullptr) {
             refuse(fmt::format("output.formats: \"{}\" is one file, and ranks write one each: \"pvtu\" and "
-                               "\"msh\" are in pieces",
+                               "\"msh\" are in pieces. Set formats = [\"pvtu\"] under [output]",
                                format));
         }
         io::WriteOptions& writing = the_case.writing[format];

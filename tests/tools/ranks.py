@@ -205,8 +205,8 @@ class Report(RanksTest):
 
 
 class Refused(RanksTest):
-    def refused_in_ranks(self, text, code, *words):
-        result = mpirun(2, "build", self.case(text), "--out", self.dir / "out")
+    def refused_in_ranks(self, text, code, *words, ranks=2):
+        result = mpirun(ranks, "build", self.case(text), "--out", self.dir / "out")
         self.assertEqual(result.code, code, result.out + result.err)
         lines = our_lines(result.err)
         self.assertEqual(len(lines), 1, result.err)
@@ -224,6 +224,11 @@ class Refused(RanksTest):
         result = mpirun(3, "build", self.dir / "none.toml")
         self.assertEqual(result.code, 3, result.err)
         self.assertEqual(len(our_lines(result.err)), 1, result.err)
+
+    def test_the_message_comes_before_mpirun_ends_the_ranks(self):
+        """Of many ranks, most of which end first, where it was lost in a run of five."""
+        for _ in range(30 if LARGE else 4):
+            self.refused_in_ranks(sphere("A").replace("expanding-sphere", "shrinking-sphere"), 2, "shrinking-sphere", ranks=12)
 
     def test_other_subcommands(self):
         result = mpirun(2, "info", ROOT / "examples/room.msh")
