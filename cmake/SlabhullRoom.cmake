@@ -2,6 +2,8 @@
 add_library(slabhull_flags INTERFACE)
 # Same bytes from the same input: no contraction to fused multiply-add behind our back.
 target_compile_options(slabhull_flags INTERFACE -ffp-contract=off)
+# Nobody asks errno about square roots; compilers may then take several at once.
+target_compile_options(slabhull_flags INTERFACE -fno-math-errno)
 target_compile_options(slabhull_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # A false alarm in unity builds: it takes every file but the one compiled for a header.

@@ -86,7 +86,8 @@ GradientGram<D> gradient_gram(const std::array<std::array<double, N>, D + 1>& co
 }
 
 /// Calls use() with cos |cos| of the dihedral angle between each two facets, from the gradients, which are
-/// the inward normals. False if a facet has measure zero, perhaps after some angles.
+/// the inward normals; rounding may take it slightly beyond 1 or -1. False if a facet has measure zero,
+/// perhaps after some angles.
 template<int D, std::size_t N, class Use>
 bool for_each_cosine(const std::array<std::array<double, N>, D + 1>& corners, const Use& use) {
     const GradientGram<D> a = gradient_gram<D>(corners);
@@ -96,7 +97,7 @@ bool for_each_cosine(const std::array<std::array<double, N>, D + 1>& corners, co
             if (!(square > 0)) {
                 return false;
             }
-            use(std::clamp(-a[i][j] * std::abs(a[i][j]) / square, -1.0, 1.0));
+            use(-a[i][j] * std::abs(a[i][j]) / square);
         }
     }
     return true;

@@ -27,7 +27,8 @@ constexpr std::size_t grain = 16'800; ///< cells; whole prisms of each kind
 template<int D>
 class VertexSet {
 public:
-    static constexpr std::size_t most = prism_kinds<D>.front().vertices;
+    static constexpr std::size_t most = CellGroups<D>::most_vertices;
+    static_assert(most == prism_kinds<D>.front().vertices);
 
     /// False if the set would overflow.
     bool add(const Simplex<D>& cell) {

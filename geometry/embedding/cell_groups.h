@@ -25,6 +25,7 @@ template<int D>
 class CellGroups {
 public:
     static constexpr std::size_t most_cells = D == 2 ? 4 : 14;
+    static constexpr std::size_t most_vertices = D == 2 ? 5 : 10;
 
     /// `caps`: of each cell; those in no cap are tested.
     CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, std::span<const CapOf> caps);

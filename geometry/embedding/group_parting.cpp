@@ -22,24 +22,16 @@ struct Span {
 template<int N>
 class Parting {
 public:
-    Parting(const VertexCloud<N>& a, const VertexCloud<N>& b) : a_{a}, b_{b} {
-        for (std::size_t k = 0; k < N; ++k) {
-            for (std::size_t i = 0; i < a.size; ++i) {
-                reach_[k] = std::max(reach_[k], std::abs(a.points[i][k] - a.mean[k]));
-            }
-            for (std::size_t i = 0; i < b.size; ++i) {
-                reach_[k] = std::max(reach_[k], std::abs(b.points[i][k] - a.mean[k]));
-            }
-        }
-    }
+    Parting(const VertexCloud<N>& a, const VertexCloud<N>& b) : a_{a}, b_{b} {}
 
     bool found() {
         constexpr int most_steps = 60;
         Point<N> h;
         for (std::size_t k = 0; k < N; ++k) {
             h[k] = b_.mean[k] - a_.mean[k];
+            reach_[k] = std::max(a_.reach[k], std::abs(h[k]) + b_.reach[k]);
         }
-        if (in_range(h) && along(h, b_).least - along(h, a_).most > bound(h)) {
+        if (in_range(h) && least_along(h, b_) - most_along(h, a_) > bound(h)) {
             return true;
         }
         h = discriminant();
@@ -111,13 +103,32 @@ private:
         return all;
     }
 
+    double place_along(const Point<N>& h, const Point<N>& p) const {
+        double x = 0;
+        for (std::size_t k = 0; k < N; ++k) {
+            x += h[k] * (p[k] - a_.mean[k]);
+        }
+        return x;
+    }
+    double least_along(const Point<N>& h, const VertexCloud<N>& cloud) const {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < cloud.size; ++i) {
+            least = std::min(least, place_along(h, cloud.points[i]));
+        }
+        return least;
+    }
+    double most_along(const Point<N>& h, const VertexCloud<N>& cloud) const {
+        double most = -std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < cloud.size; ++i) {
+            most = std::max(most, place_along(h, cloud.points[i]));
+        }
+        return most;
+    }
+
     Span along(const Point<N>& h, const VertexCloud<N>& cloud) const {
         Span span;
         for (std::size_t i = 0; i < cloud.size; ++i) {
-            double x = 0;
-            for (std::size_t k = 0; k < N; ++k) {
-                x += h[k] * (cloud.points[i][k] - a_.mean[k]);
-            }
+            const double x = place_along(h, cloud.points[i]);
             if (x < span.least) {
                 span.least = x;
                 span.first = i;
@@ -131,7 +142,8 @@ private:
     }
 
     /// Each of the two sums compared has at most N + 2 roundings of terms no larger than bounded here, so 16
-    /// unit roundoffs cover both. The tiny constant covers underflow when coordinates are scaled.
+    /// unit roundoffs cover both, and the few of the bound. The tiny constant covers underflow when
+    /// coordinates are scaled.
     double bound(const Point<N>& h) const {
         double terms = 0;
         for (std::size_t k = 0; k < N; ++k) {
@@ -158,7 +170,7 @@ private:
 
     const VertexCloud<N>& a_;
     const VertexCloud<N>& b_;
-    Point<N> reach_{}; ///< largest distance of a point from the mean of a
+    Point<N> reach_{}; ///< no point is farther from the mean of a, but for some roundings
 };
 
 } // namespace
@@ -175,6 +187,12 @@ void VertexCloud<N>::assign(std::span<const Index> vertices, const JoinedSpans<P
             points[i][k] = all[vertices[i]][k] * scale[k];
             in_range = in_range && std::abs(points[i][k]) < 1e100;
             mean[k] += share * points[i][k];
+        }
+    }
+    reach = {};
+    for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t k = 0; k < N; ++k) {
+            reach[k] = std::max(reach[k], std::abs(points[i][k] - mean[k]));
         }
     }
 }

@@ -18,6 +18,7 @@ struct VertexCloud {
     std::array<Point<N>, most> points; ///< scaled
     std::size_t size = 0;
     Point<N> mean{};
+    Point<N> reach{};     ///< largest distances of points from the mean, by coordinate
     bool in_range = true; ///< coordinates are small enough that sums cannot overflow
 
     /// `scale`: powers of two by which coordinates are multiplied.

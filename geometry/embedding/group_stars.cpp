@@ -64,9 +64,12 @@ private:
         groups_ = s_.groups_.groups_of(v);
         first_.clear();
         cells_.clear();
+        blocks_ = {};
         for (const Index g : groups_) {
             first_.push_back(s_.groups_.first_cell(g));
             cells_.push_back(static_cast<Index>(s_.groups_.cell_count(g)));
+            mark_block(first_.back());
+            mark_block(first_.back() + cells_.back() - 1);
         }
         while (first_.size() % at_once != 0) { // no cell is in these
             first_.push_back(0);
@@ -101,12 +104,14 @@ private:
         }
         const Point<D + 1>& origin = s_.points_[v_];
         Place largest{};
-        places_.assign(1, Place{});
+        places_.resize(1 + CellGroups<D>::most_vertices * groups_.size());
+        Place* next = places_.data();
+        *next++ = {};
         for (const Index g : groups_) {
             for (const Index w : s_.groups_.vertices(g)) {
                 const Point<D + 1>& p = s_.points_[w];
                 const double along = p[axis] - origin[axis];
-                Place& place = places_.emplace_back();
+                Place& place = *next++;
                 for (std::size_t j = 0; j < D; ++j) {
                     const double x = p[kept[j]] - origin[kept[j]];
                     const double shift = slope[j] * along;
@@ -115,6 +120,7 @@ private:
                 }
             }
         }
+        places_.resize(static_cast<std::size_t>(next - places_.data()));
         tolerance_ = 1024 * unit_roundoff;
         bool in_range = true;
         for (std::size_t j = 0; j < D; ++j) {
@@ -170,8 +176,21 @@ private:
         return true;
     }
 
+    /// Cells by blocks of so many, of which a group meets two at most: no other cell of a block that is not
+    /// marked is here. Of two blocks with the same bit, both are.
+    static constexpr Index block = 16;
+    static_assert(CellGroups<D>::most_cells <= block);
+    void mark_block(Index cell) { blocks_[cell / block / 64 % blocks_.size()] |= block_bit(cell); }
+    bool may_be_here(Index cell) const {
+        return (blocks_[cell / block / 64 % blocks_.size()] & block_bit(cell)) != 0;
+    }
+    static std::uint64_t block_bit(Index cell) { return std::uint64_t{1} << cell / block % 64; }
+
     /// A linear search is fine: vertices have few groups, hubs of meshes excepted.
     bool is_here(Index cell) const {
+        if (!may_be_here(cell)) {
+            return false;
+        }
         if (groups_.size() > 64) {
             return is_here_by_search(cell);
         }
@@ -318,6 +337,7 @@ private:
 
     std::vector<Index> first_; ///< first cell of each group; then some zeros, up to a multiple of at_once
     std::vector<Index> cells_; ///< number of cells of each group, and as many zeros
+    std::array<std::uint64_t, 4> blocks_{}; ///< marks of blocks of cells, see mark_block()
     std::vector<Place> places_;
     std::vector<Corners> border_;
     std::vector<Point<D + 1>> unit_normals_;

@@ -26,22 +26,42 @@ public:
     explicit Builder(SizeField& field) : field_{field}, growth_{field.grading_.growth} {}
 
     void build() {
-        candidates_.reserve(4 * field_.sources_.size());
-        for (std::size_t i = 0; i < field_.sources_.size(); ++i) {
-            candidates_.push_back({field_.sources_[i], static_cast<Index>(i)});
+        candidates_.resize(field_.sources_.size());
+        for (std::size_t i = 0; i < candidates_.size(); ++i) {
+            for (std::size_t k = 0; k < D; ++k) {
+                candidates_.at[k][i] = field_.sources_[i].at[k];
+            }
+            candidates_.spacing[i] = field_.sources_[i].spacing;
+            candidates_.index[i] = static_cast<Index>(i);
         }
         field_.boxes_.assign(1, Box{});
-        Point<D> centre = field_.corner_;
-        for (double& x : centre) {
-            x += field_.edge_ / 2;
-        }
-        fill(0, centre, field_.edge_ / 2, 0, candidates_.size(), 0);
+        fill(0, field_.centre(), field_.edge_ / 2, 0, candidates_.size(), 0);
     }
 
 private:
-    struct Candidate {
-        Source source;
-        Index index;
+    /// A stack: the lists of all boxes on the current path. Each coordinate is a list of its own, so that
+    /// several candidates are measured at once.
+    struct Candidates {
+        std::array<Array<double>, D> at;
+        Array<double> spacing;
+        Array<Index> index;
+
+        std::size_t size() const { return index.size(); }
+        /// Does not clear what is added.
+        void resize(std::size_t size) {
+            for (Array<double>& along : at) {
+                along.resize(size);
+            }
+            spacing.resize(size);
+            index.resize(size);
+        }
+        void copy(std::size_t from, std::size_t to) {
+            for (Array<double>& along : at) {
+                along[to] = along[from];
+            }
+            spacing[to] = spacing[from];
+            index[to] = index[from];
+        }
     };
 
     /// Fills the box with this centre and half edge, given the candidates [begin, end) of its parent.
@@ -53,14 +73,15 @@ private:
             return; // `largest` is the minimum in the whole box
         }
         const double least = values_[best - begin];
+        const Index ruler = candidates_.index[best];
         if (depth == max_depth || 2 * sway <= leaf_excess * std::min(least, field_.grading_.largest)) {
-            field_.boxes_[box].source = candidates_[best].index; // most boxes: their rivals need no list
+            field_.boxes_[box].source = ruler; // most boxes: their rivals need no list
             return;
         }
         const std::size_t kept = candidates_.size();
         keep_rivals(begin, end, least, sway);
         if (candidates_.size() == kept + 1) {
-            field_.boxes_[box].source = candidates_[best].index;
+            field_.boxes_[box].source = ruler;
         } else {
             split(box, centre, half, kept, depth);
         }
@@ -81,31 +102,50 @@ private:
 
     /// The candidate with the least spacing at `centre`, or `end`; leaves the spacings in values_.
     std::size_t find_best(const Point<D>& centre, std::size_t begin, std::size_t end) {
-        values_.resize(std::max(values_.size(), end - begin));
+        find_values(centre, begin, end);
         std::size_t best = end;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = begin; i < end; ++i) {
-            const Source& source = candidates_[i].source;
-            const double value = source.spacing + growth_ * distance<D>(source.at, centre);
-            values_[i - begin] = value;
-            if (value < least) {
-                least = value;
+            if (values_[i - begin] < least) {
+                least = values_[i - begin];
                 best = i;
             }
         }
         return best;
     }
 
+    /// A loop of its own, without a branch and with the centre as a copy, so that compilers use vector
+    /// instructions.
+    void find_values(Point<D> centre, std::size_t begin, std::size_t end) {
+        values_.resize(std::max(values_.size(), end - begin));
+        std::array<const double*, D> at;
+        for (std::size_t k = 0; k < D; ++k) {
+            at[k] = candidates_.at[k].data() + begin;
+        }
+        const double* const spacing = candidates_.spacing.data() + begin;
+        double* const values = values_.data();
+        const double growth = growth_;
+        for (std::size_t i = 0; i < end - begin; ++i) {
+            double square = 0;
+            for (std::size_t k = 0; k < D; ++k) {
+                square += (at[k][i] - centre[k]) * (at[k][i] - centre[k]);
+            }
+            values[i] = spacing[i] + growth * std::sqrt(square);
+        }
+    }
+
     /// Appends the candidates that may give the minimum in some part of a box across which a spacing varies
     /// by `sway` either way.
     void keep_rivals(std::size_t begin, std::size_t end, double best, double sway) {
         const double bound = std::min(best + 2 * sway, field_.grading_.largest + sway);
+        std::size_t next = candidates_.size();
+        candidates_.resize(next + (end - begin));
         for (std::size_t i = begin; i < end; ++i) {
             if (values_[i - begin] <= bound) {
-                const Candidate rival = candidates_[i];
-                candidates_.push_back(rival);
+                candidates_.copy(i, next++);
             }
         }
+        candidates_.resize(next);
     }
 
     /// An excess e over the spacing at a leaf's centre is an excess e / (1 - e / 2) over h(x): here
@@ -114,7 +154,7 @@ private:
 
     SizeField& field_;
     double growth_;
-    std::vector<Candidate> candidates_; ///< a stack: the lists of all boxes on the current path
+    Candidates candidates_;
     std::vector<double> values_;
 };
 
@@ -174,12 +214,26 @@ Index SizeField<D>::leaf_at(const Point<D>& x) const {
 
 template<int D>
 double SizeField<D>::operator()(const Point<D>& x) const {
-    const Index ruler = boxes_[leaf_at(x)].source;
+    return in_leaf(leaf_at(x), x);
+}
+
+template<int D>
+double SizeField<D>::in_leaf(Index box, const Point<D>& x) const {
+    const Index ruler = boxes_[box].source;
     if (ruler == no_index) {
         return grading_.largest;
     }
     const Source& source = sources_[ruler];
     return std::min(grading_.largest, source.spacing + grading_.growth * distance<D>(source.at, x));
+}
+
+template<int D>
+Point<D> SizeField<D>::centre() const {
+    Point<D> middle = corner_;
+    for (double& x : middle) {
+        x += edge_ / 2;
+    }
+    return middle;
 }
 
 template<int D>
@@ -193,19 +247,20 @@ Point<D> SizeField<D>::child_centre(const Point<D>& centre, double half, std::si
 
 template<int D>
 double SizeField<D>::cube_count() const {
-    Point<D> centre = corner_;
-    for (double& x : centre) {
-        x += edge_ / 2;
-    }
-    return cube_count(0, centre, edge_ / 2);
+    return cube_count(0, centre(), edge_ / 2);
 }
 
 template<int D>
 double SizeField<D>::cube_count(Index box, const Point<D>& centre, double half) const {
-    if (boxes_[box].children == no_index) {
-        return std::pow(2 * half / (*this)(centre), D);
-    }
     double sum = 0;
+    if (boxes_[box].children == no_index) {
+        const double cubes = 2 * half / in_leaf(box, centre);
+        sum = cubes * cubes;
+        for (int k = 2; k < D; ++k) {
+            sum *= cubes;
+        }
+        return sum;
+    }
     for (std::size_t child = 0; child < fan; ++child) {
         sum += cube_count(boxes_[box].children + static_cast<Index>(child), child_centre(centre, half, child),
                           half / 2);

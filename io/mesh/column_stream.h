@@ -74,11 +74,14 @@ RowFill stored_as(const Column<Given>& column) {
     return [column](std::size_t begin, std::size_t end, char* out) {
         const auto width = static_cast<std::size_t>(column.components());
         for_each_chunk(column, begin, end, [&](std::size_t, const Given* values, std::size_t count) {
-            for (std::size_t i = 0; i < count * width; ++i) {
+            char* const first =
+                out; // `out` itself might be among the bytes written, for all a compiler knows
+            const std::size_t all = count * width;
+            for (std::size_t i = 0; i < all; ++i) {
                 const auto value = static_cast<Stored>(values[i]);
-                std::memcpy(out + i * sizeof value, &value, sizeof value);
+                std::memcpy(first + i * sizeof value, &value, sizeof value);
             }
-            out += count * width * sizeof(Stored);
+            out += all * sizeof(Stored);
         });
     };
 }

@@ -33,7 +33,7 @@ Layers collect_layers(const HullView<D>& view) {
     Layers layers;
     std::mutex lock;
     parallel_for(view.cells().size(), grain, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::int64_t> claimed(end - begin);
+        Array<std::int64_t> claimed(end - begin); // not cleared first
         view.hull.layer.fill(begin, end, claimed.data());
         Layers found;
         std::int64_t last = -1; // the next cell is mostly in the same layer

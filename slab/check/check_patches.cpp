@@ -82,7 +82,7 @@ Array<TrackId> all_tracks(const HullView<D>& view) {
 template<int D, class Full, class Partial>
 void for_each_claim(const HullView<D>& view, const Array<TrackId>& track, std::size_t begin, std::size_t end,
                     const Full& full, const Partial& partial) {
-    std::vector<std::int64_t> patch(end - begin);
+    Array<std::int64_t> patch(end - begin); // not cleared first
     view.hull.patch.fill(begin, end, patch.data());
     for (std::size_t c = begin; c < end; ++c) {
         if (view.in_cap(c) || patch[c - begin] <= 0) {
@@ -101,7 +101,8 @@ void for_each_claim(const HullView<D>& view, const Array<TrackId>& track, std::s
 
 constexpr std::size_t cells_per_reading = 1 << 14;
 
-/// What cells claim of facets, or of parts of them, without the claiming cells; each once, sorted.
+/// What cells claim of facets, or of parts of them, without the claiming cells; each once, sorted. Parts that
+/// stand beside a facet which they are parts of, in the same patch, may be left out.
 template<int D>
 struct DistinctClaims {
     FacetPatches<D> facets;
@@ -145,6 +146,55 @@ private:
     FacetPatches<D> seen_; ///< starts with patch 0, which no claim has
 };
 
+/// Takes the claims of consecutive cells. The cells of a prism are consecutive: a part waits for the next
+/// facet, which is nearly always the one that it is a part of, or belongs to the last.
+template<int D>
+class ClaimList {
+public:
+    explicit ClaimList(DistinctClaims<D>& claims) : claims_{claims} {}
+
+    void add_facet(const FacetPatch<D>& facet) {
+        last_ = facet;
+        keep_waiting();
+        if (seen_.is_new(facet)) {
+            claims_.facets.push_back(facet);
+        }
+    }
+    void add_part(const FacetPatch<D>& part) {
+        if (!belongs_to_last(part) && seen_.is_new(part)) {
+            waiting_.push_back(part);
+        }
+    }
+    void finish() {
+        keep_waiting();
+        claims_.sort();
+    }
+
+private:
+    /// Those that are no part of the last facet either.
+    void keep_waiting() {
+        for (const FacetPatch<D>& part : waiting_) {
+            if (!belongs_to_last(part)) {
+                claims_.parts.push_back(part);
+            }
+        }
+        waiting_.clear();
+    }
+
+    bool belongs_to_last(const FacetPatch<D>& part) const {
+        return part.patch == last_.patch &&
+               std::all_of(part.tracks.begin(), part.tracks.end(), [&](TrackId one) {
+                   return one == no_track ||
+                          std::find(last_.tracks.begin(), last_.tracks.end(), one) != last_.tracks.end();
+               });
+    }
+
+    DistinctClaims<D>& claims_;
+    SeenFacets<D> seen_;
+    FacetPatch<D> last_{}; ///< first of patch 0, which no claim has
+    FacetPatches<D> waiting_;
+};
+
 /// Goes block by block to save memory: many layers repeat the claim for one facet.
 template<int D>
 DistinctClaims<D> distinct_claims(const HullView<D>& view, const Array<TrackId>& track) {
@@ -153,17 +203,16 @@ DistinctClaims<D> distinct_claims(const HullView<D>& view, const Array<TrackId>&
     for (std::size_t first = 0; first < view.cells().size(); first += block) {
         const std::size_t count = std::min(block, view.cells().size() - first);
         const auto claims_of_piece = [&](std::size_t begin, std::size_t end, DistinctClaims<D>& piece) {
-            SeenFacets<D> seen;
-            const auto take_to = [&seen](FacetPatches<D>& list) {
-                return [&seen, &list](const PatchClaim<D>& claim) {
-                    if (const FacetPatch<D> facet{claim.tracks, claim.patch}; seen.is_new(facet)) {
-                        list.push_back(facet);
-                    }
-                };
-            };
-            for_each_claim(view, track, first + begin, first + end, take_to(piece.facets),
-                           take_to(piece.parts));
-            piece.sort();
+            ClaimList<D> list{piece};
+            for_each_claim(
+                view, track, first + begin, first + end,
+                [&list](const PatchClaim<D>& claim) {
+                    list.add_facet({claim.tracks, claim.patch});
+                },
+                [&list](const PatchClaim<D>& claim) {
+                    list.add_part({claim.tracks, claim.patch});
+                });
+            list.finish();
         };
         for (const DistinctClaims<D>& piece :
              parallel_pieces<DistinctClaims<D>>(count, cells_per_reading, claims_of_piece)) {
@@ -260,7 +309,7 @@ std::map<std::int64_t, PatchUse> count_side_patches(const HullView<D>& view) {
     std::map<std::int64_t, PatchUse> all;
     std::mutex lock;
     parallel_for(view.cells().size(), cells_per_reading, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::int64_t> patch(end - begin);
+        Array<std::int64_t> patch(end - begin); // not cleared first
         view.hull.patch.fill(begin, end, patch.data());
         std::map<std::int64_t, PatchUse> found;
         for (std::size_t c = begin; c < end; ++c) {
@@ -326,6 +375,9 @@ void check_patch_columns(const HullView<D>& view, Findings& findings) {
             report_mismatches<D>({run, end}, findings);
             run = end;
         }
+    }
+    if (claims.parts.empty()) {
+        return;
     }
     const FacetPatches<D> parts = patches_of_parts<D>(facets);
     if (has_all<D>(parts, claims.parts)) {

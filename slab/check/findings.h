@@ -80,7 +80,7 @@ std::vector<Index> select_rows(const Column<std::int64_t>& column, const Predica
     const auto width = static_cast<std::size_t>(column.components());
     return parallel_gather<Index>(column.rows(), grain,
                                   [&](std::size_t begin, std::size_t end, std::vector<Index>& found) {
-                                      std::vector<std::int64_t> values((end - begin) * width);
+                                      Array<std::int64_t> values((end - begin) * width); // not cleared first
                                       column.fill(begin, end, values.data());
                                       for (std::size_t row = begin; row < end; ++row) {
                                           if (bad(row, values.data() + (row - begin) * width)) {

@@ -69,6 +69,8 @@ private:
     class Builder;
 
     Index leaf_at(const Point<D>& x) const;
+    double in_leaf(Index box, const Point<D>& x) const;
+    Point<D> centre() const;
     double cube_count(Index box, const Point<D>& centre, double half) const;
     static Point<D> child_centre(const Point<D>& centre, double half, std::size_t child);
 
