@@ -33,7 +33,6 @@ void PointSet::insert_complement(const PointSet& other) {
 
 void PointSet::count() {
     counts_.assign(words_.size() / block_words, {});
-    blocks_.clear();
     size_ = 0;
     for (std::size_t block = 0; block < counts_.size(); ++block) {
         Counts& counts = counts_[block];
@@ -44,11 +43,7 @@ void PointSet::count() {
             }
             size_ += ones(words_[block * block_words + word]);
         }
-        while (blocks_.size() * members_per_entry < size_) {
-            blocks_.push_back(static_cast<std::uint32_t>(block));
-        }
     }
-    blocks_.push_back(static_cast<std::uint32_t>(counts_.size() - 1));
 }
 
 std::size_t PointSet::rank(std::size_t point) const {

@@ -280,9 +280,8 @@ private:
     /// Gives each rank a range of the cap's cells, which the first rank has.
     void divide_cells(MarchState<D>& state) const {
         CapCells<D> cells = take_cells(state.cap, *ranks_);
-        const auto rank = static_cast<std::size_t>(ranks_->rank());
-        const auto count = static_cast<std::size_t>(ranks_->size());
-        state.cells = redistributed(std::move(cells), range_of_part(cells.all, rank, count), *ranks_);
+        const HullRange here = range_of_rank(cells.all, *ranks_);
+        state.cells = redistributed(std::move(cells), here, *ranks_);
     }
 
     /// Reads the settings, once there is a boundary, and begins with the caps that follow from that alone.

@@ -9,12 +9,9 @@
 #include "slabhull/slab/hull_part.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -85,11 +82,10 @@ Array<T> lowest_at_points(const HullPart<D>& part, Communicator& ranks, std::spa
     std::vector<std::span<const T>> values(count);
     for (std::size_t home = 0, begin = 0; home < count; ++home) {
         used[home] = words_of_points(*part.points_used, home * at_home, at_home);
-        const std::size_t members = std::transform_reduce(
-            used[home].begin(), used[home].end(), std::size_t{0}, std::plus<>{},
-            [](std::uint64_t word) { return static_cast<std::size_t>(std::popcount(word)); });
-        values[home] = mine.subspan(begin, members);
-        begin += members;
+        const std::size_t next = std::min((home + 1) * at_home, part.hull_points());
+        const std::size_t end = part.points_used->rank(next);
+        values[home] = mine.subspan(begin, end - begin);
+        begin = end;
     }
     const std::vector<Array<std::uint64_t>> used_by = ranks.all_to_all(used);
     std::vector<Array<T>> told = ranks.all_to_all(values);

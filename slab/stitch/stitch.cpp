@@ -489,6 +489,11 @@ HullRange range_of_part(std::size_t cells, std::size_t part, std::size_t parts) 
     return {begin, begin_of_part(cells, part + 1, parts) - begin};
 }
 
+HullRange range_of_rank(std::size_t cells, const Communicator& ranks) {
+    return range_of_part(cells, static_cast<std::size_t>(ranks.rank()),
+                         static_cast<std::size_t>(ranks.size()));
+}
+
 template<int D>
 HullPart<D> stitch_part(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
                         const SideOptions& options, IdCounter& ids, Communicator& ranks,

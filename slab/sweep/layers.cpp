@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/layers.h"
 
-#include "core/pieces.h"
 #include "slab/sweep/layer_meter.h"
 #include "slab/sweep/sweep_start.h"
 #include "slabhull/core/communicator.h"
+#include "slabhull/slab/hull_part.h"
 
 #include <fmt/format.h>
 
@@ -96,20 +96,20 @@ private:
         BoundaryMover<D> mover{sweep, motions, motion_start, trajectory};
         LayerMeter<D> meter{mover, sweep, options, sweep.layers(), sweep.times.front(), sweep.times.back()};
         result.fit = meter.fit();
-        const std::array<std::size_t, 2> measured = layers_of(all, sweep.layers());
+        const HullRange measured = range_of_rank(sweep.layers(), all);
         for (std::size_t layer = 0; layer < sweep.layers(); ++layer) {
             const double from = sweep.times[layer];
             const double to = sweep.times[layer + 1];
             end.at = {layer, SweepEnd::moving};
             Array<Point<D>> places = mover.drift(sweep.positions.back(), from, to);
             end.at = {layer, SweepEnd::measuring};
-            if (measured[0] <= layer && layer < measured[1]) {
+            if (measured.contains(layer)) {
                 meter.measure(sweep.positions.back(), places, from, to);
                 result.fit = meter.fit();
                 if (!to_the_end && result.fit.growth >= hopeless) {
                     return;
                 }
-            } else if (layer + 1 == measured[0]) {
+            } else if (layer + 1 == measured.first) {
                 meter.pass(places);
             }
             end.at = {layer, SweepEnd::projecting};
@@ -118,12 +118,6 @@ private:
         }
         sweep.projected = mover.projected();
         end.at = {sweep.layers(), SweepEnd::moving};
-    }
-
-    static std::array<std::size_t, 2> layers_of(const Communicator& all, std::size_t layers) {
-        const auto rank = static_cast<std::size_t>(all.rank());
-        const auto size = static_cast<std::size_t>(all.size());
-        return {begin_of_part(layers, rank, size), begin_of_part(layers, rank + 1, size)};
     }
 };
 

@@ -2,10 +2,10 @@
 #include "slabhull/slab/tangling.h"
 
 #include "core/listed.h"
-#include "core/pieces.h"
 #include "slab/sweep/boundary_mover.h"
 #include "slabhull/core/communicator.h"
 #include "slabhull/geometry/embedding.h"
+#include "slabhull/slab/hull_part.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -154,10 +154,9 @@ private:
 /// The first level that is at fault, or the number of levels. Each rank looks at its share.
 template<int D>
 std::size_t first_at_fault(const Sweep<D>& sweep, Communicator& ranks) {
-    const auto rank = static_cast<std::size_t>(ranks.rank());
-    const auto size = static_cast<std::size_t>(ranks.size());
-    std::size_t level = 1 + begin_of_part(sweep.layers(), rank, size);
-    const std::size_t end = 1 + begin_of_part(sweep.layers(), rank + 1, size);
+    const HullRange layers = range_of_rank(sweep.layers(), ranks);
+    std::size_t level = layers.first + 1; // the upper one of each layer
+    const std::size_t end = layers.end() + 1;
     while (level < end && !fault_of<D>(sweep.boundary, sweep.at(level), sweep.times[level])) {
         ++level;
     }

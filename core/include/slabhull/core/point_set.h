@@ -9,7 +9,7 @@
 namespace slabhull {
 
 /// Some of the points of a mesh (or of its cells), numbered in ascending order: a bit per point, and counts
-/// of 16 bytes per 512 and 4 per 512 members. Reading is safe from several threads. Source: Vigna, "Broadword
+/// of 16 bytes per 512. Reading is safe from several threads. Source: Vigna, "Broadword
 /// implementation of rank/select queries", WEA 2008 (rank9).
 class PointSet {
 public:
@@ -41,7 +41,6 @@ private:
     static constexpr std::size_t word_bits = 64;
     static constexpr std::size_t block_words = 8;
     static constexpr std::size_t count_bits = 9;
-    static constexpr std::size_t members_per_entry = 512;
     /// Rounded up to whole blocks, so that block ends need no check.
     static std::size_t words_for(std::size_t points) {
         return (points / (word_bits * block_words) + 1) * block_words;
@@ -60,7 +59,6 @@ private:
         }
     };
     std::vector<Counts> counts_;
-    std::vector<std::uint32_t> blocks_; ///< of every 512th member, and the last block
     std::size_t size_ = 0;
 };
 

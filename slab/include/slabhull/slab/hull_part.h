@@ -11,6 +11,8 @@
 
 namespace slabhull {
 
+class Communicator;
+
 /// A range of a hull's cells with the points that these use, as one of several ranks holds it. Vertices and
 /// neighbours are numbers within the part, of 32 bits; numbers in the whole hull have 64.
 template<int D>
@@ -33,7 +35,9 @@ struct HullPart {
     }
 };
 
-/// Range `part` of `parts` that so many cells are divided into: of nearly equal length, in order.
+/// Range `part` of `parts` that so many cells, or layers, are divided into: of nearly equal length, in order.
 HullRange range_of_part(std::size_t cells, std::size_t part, std::size_t parts);
+/// This rank's.
+HullRange range_of_rank(std::size_t cells, const Communicator& ranks);
 
 } // namespace slabhull
