@@ -42,6 +42,11 @@ List joined(std::vector<List> lists) {
     for (const List& list : lists) {
         size += list.size();
     }
+    for (List& list : lists) {
+        if (list.size() == size) { // the others are empty
+            return std::move(list);
+        }
+    }
     List all;
     all.reserve(size);
     for (List& list : lists) {

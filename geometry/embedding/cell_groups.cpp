@@ -121,44 +121,28 @@ private:
     std::size_t last_ = 0;
 };
 
-/// Ranges that are cut one by one are counted from the first tested cell, where prisms begin.
-template<int D>
-std::vector<GroupsOfPiece> cut_into_prisms(std::span<const Simplex<D>> cells, std::span<const CapOf> caps,
-                                           std::size_t& start) {
-    start = static_cast<std::size_t>(std::find(caps.begin(), caps.end(), CapOf::none) - caps.begin());
-    return parallel_pieces<GroupsOfPiece>(
-        caps.size() - start, grain, [&](std::size_t begin, std::size_t end, GroupsOfPiece& groups) {
-            groups = PrismFinder<D>{cells, caps}.cut(start + begin, start + end);
-        });
-}
-
 } // namespace
 
 template<int D>
-std::vector<std::uint8_t> group_sizes(std::span<const Simplex<D>> cells, std::span<const CapOf> caps) {
-    std::size_t start = 0;
-    const auto pieces = cut_into_prisms<D>(cells, caps, start);
-    std::vector<std::uint8_t> sizes(start, 0);
-    for (const GroupsOfPiece& piece : pieces) {
-        sizes.insert(sizes.end(), piece.cells.begin(), piece.cells.end());
-    }
-    return sizes;
+CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::span<const CapOf> caps)
+    : mesh_{cells, {}, {}, {}, {}, {}} {
+    find_prisms(caps);
+    tested_ = own_;
 }
 
 template<int D>
 CellGroups<D>::CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count,
                           std::span<const CapOf> caps)
-    : mesh_{cells, {}, {}, {}, {}, {}}, vertex_count_{vertex_count} {
-    find_prisms(caps);
-    tested_ = own_;
+    : CellGroups{cells, caps} {
+    vertex_count_ = vertex_count;
     finish();
 }
 
 template<int D>
-CellGroups<D>::CellGroups(const PartialMesh<D>& mesh, std::size_t vertex_count, std::span<const CapOf> caps,
-                          std::span<const std::uint8_t> ghost_sizes, const PointSet& touching)
-    : mesh_{mesh}, vertex_count_{vertex_count} {
-    find_prisms(caps);
+void CellGroups<D>::add_ghosts(const PartialMesh<D>& mesh, std::size_t vertex_count,
+                               std::span<const std::uint8_t> ghost_sizes, const PointSet& touching) {
+    mesh_ = mesh;
+    vertex_count_ = vertex_count;
     std::size_t ghost = mesh.own.size();
     for (const std::uint8_t size : ghost_sizes) {
         add_cells(ghost, size);
@@ -236,12 +220,17 @@ void CellGroups<D>::add_cells(std::size_t first, std::size_t count) {
     add_group(first, count);
 }
 
+/// Ranges that are cut one by one are counted from the first tested cell, where prisms begin.
 template<int D>
 void CellGroups<D>::find_prisms(std::span<const CapOf> caps) {
     cells_before_.push_back(0);
     first_vertex_.push_back(0);
-    std::size_t c = 0;
-    auto pieces = cut_into_prisms<D>(mesh_.own, caps, c);
+    const auto start = static_cast<std::size_t>(std::find(caps.begin(), caps.end(), CapOf::none) - caps.begin());
+    auto pieces = parallel_pieces<GroupsOfPiece>(
+        caps.size() - start, grain, [&](std::size_t begin, std::size_t end, GroupsOfPiece& groups) {
+            groups = PrismFinder<D>{mesh_.own, caps}.cut(start + begin, start + end);
+        });
+    std::size_t c = start;
     make_room(pieces);
     for (GroupsOfPiece& piece : pieces) {
         auto vertices = piece.vertices.begin();
@@ -290,8 +279,6 @@ std::span<const Index> CellGroups<D>::tested_groups_of(Index vertex) const {
     return all.first(static_cast<std::size_t>(end - all.begin()));
 }
 
-template std::vector<std::uint8_t> group_sizes<2>(std::span<const Simplex<2>>, std::span<const CapOf>);
-template std::vector<std::uint8_t> group_sizes<3>(std::span<const Simplex<3>>, std::span<const CapOf>);
 template class CellGroups<2>;
 template class CellGroups<3>;
 

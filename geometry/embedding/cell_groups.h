@@ -29,12 +29,15 @@ public:
 
     /// `caps`: of each cell; those in no cap are tested.
     CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, std::span<const CapOf> caps);
-    /// Those of a mesh with ghosts. `caps`: of the own cells. `ghost_sizes`: of the groups that the first
-    /// ghosts are in, which are tested, too. Of the own cells in caps, those of `touching` count; and so do
-    /// the other ghosts.
-    CellGroups(const PartialMesh<D>& mesh, std::size_t vertex_count, std::span<const CapOf> caps,
-               std::span<const std::uint8_t> ghost_sizes, const PointSet& touching);
+    /// Those of the own cells of a mesh whose ghosts add_ghosts() will bring; before that, only they are known,
+    /// not the groups at a vertex.
+    CellGroups(std::span<const Simplex<D>> cells, std::span<const CapOf> caps);
 
+    /// `mesh`: with the same own cells. `ghost_sizes`: of the groups that the first ghosts are in, which are
+    /// tested, too. Of the own cells in caps, those of `touching` count; and so do the other ghosts. To be
+    /// called once.
+    void add_ghosts(const PartialMesh<D>& mesh, std::size_t vertex_count,
+                    std::span<const std::uint8_t> ghost_sizes, const PointSet& touching);
     /// Adds the cells in caps that are at one of these vertices, so that groups_of() these has all their
     /// cells. For meshes without ghosts; to be called once.
     void complete(std::span<const Index> at_vertices, std::span<const CapOf> caps);
@@ -70,7 +73,7 @@ private:
     void finish();
 
     PartialMesh<D> mesh_;
-    std::size_t vertex_count_;
+    std::size_t vertex_count_ = 0;
     std::size_t own_ = 0;
     std::size_t tested_ = 0;
     Array<Index> first_cell_;
@@ -80,10 +83,6 @@ private:
     Array<std::size_t> first_group_;
     Array<Index> groups_;
 };
-
-/// The numbers of cells of the groups of tested cells, in order; 0 for each cell that is not tested.
-template<int D>
-std::vector<std::uint8_t> group_sizes(std::span<const Simplex<D>> cells, std::span<const CapOf> caps);
 
 extern template class CellGroups<2>;
 extern template class CellGroups<3>;

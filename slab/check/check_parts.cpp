@@ -6,23 +6,27 @@
 #include "slab/check/cell_survey.h"
 #include "slab/check/check_shape.h"
 #include "slab/check/hull_view.h"
+#include "slab/check/may_repeat.h"
 #include "slab/check/part_exchange.h"
 #include "slab/check/part_stars.h"
 #include "slabhull/core/index.h"
 #include "slabhull/core/memory.h"
+#include "slabhull/core/parallel.h"
 #include "slabhull/core/progress.h"
 #include "slabhull/topology/partial_stars.h"
 #include "topology/complex/union_find.h"
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
+#include <functional>
 #include <limits>
 #include <utility>
 
 namespace slabhull {
 
 namespace {
+
+constexpr std::size_t cells_per_piece = 1 << 16;
 
 template<int D>
 class PartCheck {
@@ -46,7 +50,7 @@ public:
             return false;
         }
         const PartStars<D> stars = complete_stars(part_, view_, ranks_);
-        return all(confirm_connectivity(stars)) && points_differ(stars) && ids_differ(stars) &&
+        return confirm_connectivity(stars) && points_differ(stars) && ids_differ(stars) &&
                measures_are_sound() && claims_are_sound() && euler_is_sound(stars) &&
                tracks_are_sound(view_, stars, ranks_) &&
                (!view_.hull.patch.given() || patch_columns_agree(view_, ranks_));
@@ -89,7 +93,6 @@ private:
 
     // --- connectivity
 
-    /// Not yet agreed on.
     bool confirm_connectivity(const PartStars<D>& stars) {
         const auto counted = confirm_stars<D>(stars.mesh_with(part_));
         const StarCounts here = counted.value_or(StarCounts{});
@@ -99,29 +102,38 @@ private:
         counts.facets = counts.cells * (D + 1) / 2;
         counts.edges = D == 2 ? counts.facets : ranks_.sum(here.link_vertices) / 2;
         counts.euler = euler_of<D>(counts);
+        if (!all(counted.has_value() && counts.vertices == part_.hull_points())) {
+            return false;
+        }
         counts.components = components();
-        return counted.has_value() && counts.vertices == part_.hull_points();
+        return true;
     }
 
-    /// Components of the parts, joined across the facets between them.
+    /// Components of the parts, joined across the facets between them. Those by shared vertices are those by
+    /// shared facets, since every star is joined through facets; vertices are fewer than cells.
     std::size_t components() const {
-        const auto cells = static_cast<Index>(part_.cells.size());
-        UnionFind joined{cells};
-        for (Index c = 0; c < cells; ++c) {
-            for (const Index neighbor : part_.neighbors[c]) {
-                if (neighbor < cells) {
-                    joined.join(c, neighbor);
+        UnionFind joined{part_.points.size()};
+        parallel_for(part_.cells.size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c) {
+                for (std::size_t i = 1; i <= D; ++i) {
+                    joined.join(part_.cells[c][0], part_.cells[c][i]);
                 }
             }
-        }
-        const auto label = [&](Index cell) { return std::uint64_t{part_.range.first + joined.find(cell)}; };
+        });
+        const auto label_of_point = [&](Index v) {
+            return static_cast<std::uint64_t>(ranks_.rank()) << 32 | joined.find(v);
+        };
+        const auto label = [&](Index cell) { return label_of_point(part_.cells[cell][0]); };
         const Array<std::uint64_t> beside = values_outside<std::uint64_t>(part_, ranks_, label);
         using Link = std::array<std::uint64_t, 2>; // of two components; of one with itself, that it is there
         std::vector<Link> links;
-        for (Index c = 0; c < cells; ++c) {
-            if (joined.is_root(c)) {
-                links.push_back({label(c), label(c)});
+        for (std::size_t v = 0; v < part_.points.size(); ++v) {
+            if (joined.is_root(static_cast<Index>(v))) {
+                links.push_back({label_of_point(static_cast<Index>(v)), label_of_point(static_cast<Index>(v))});
             }
+        }
+        const auto cells = static_cast<Index>(part_.cells.size());
+        for (Index c = 0; c < cells; ++c) {
             for (const Index neighbor : part_.neighbors[c]) {
                 if (neighbor >= cells) {
                     links.push_back({label(c), beside[neighbor - cells]});
@@ -150,18 +162,13 @@ private:
 
     // --- points and ids: what may be equal meets on one rank
 
-    static std::uint64_t hash_of_point(const Point<D + 1>& point) {
-        std::uint64_t hash = 0;
-        for (const double x : point) {
-            hash = combined_hash(hash, std::bit_cast<std::uint64_t>(x + 0.0)); // -0.0 is 0.0
-        }
-        return multiplied_hash(hash);
-    }
-
     /// Brings a value of each owned point to the rank that its hash says, and all that come to this one.
     template<class T, class Hash, class ValueOf>
     Array<T> brought_together(const PartStars<D>& stars, const Hash& hash, const ValueOf& value_of) const {
         std::vector<Array<T>> to(static_cast<std::size_t>(ranks_.size()));
+        for (Array<T>& each : to) {
+            each.reserve(part_.points.size() / to.size());
+        }
         for (std::size_t v = 0; v < part_.points.size(); ++v) {
             if (stars.owned[v] != 0) {
                 to[hash(v) % to.size()].push_back(value_of(v));
@@ -170,17 +177,21 @@ private:
         return joined(ranks_.all_to_all(to));
     }
 
-    /// Whether values are all different, on all ranks.
-    template<class T>
-    bool all_differ(Array<T> values) const {
-        std::sort(values.begin(), values.end());
-        return all(std::adjacent_find(values.begin(), values.end()) == values.end());
+    /// Whether values are all different, on all ranks. `hash_of` gives their hashes.
+    template<class T, class HashOf>
+    bool all_differ(const Array<T>& values, const HashOf& hash_of) const {
+        std::vector<T> candidates;
+        for (const Index k : may_repeat(values.size(), [&](std::size_t each) { return hash_of(values[each]); })) {
+            candidates.push_back(values[k]);
+        }
+        std::sort(candidates.begin(), candidates.end());
+        return all(std::adjacent_find(candidates.begin(), candidates.end()) == candidates.end());
     }
 
     /// Points whose hashes differ do; only if some are equal, the points themselves are compared.
     bool points_differ(const PartStars<D>& stars) {
-        const auto hash = [&](std::size_t v) { return hash_of_point(part_.points[v]); };
-        if (all_differ(brought_together<std::uint64_t>(stars, hash, hash))) {
+        const auto hash = [&](std::size_t v) { return fingerprint(part_.points[v]); };
+        if (all_differ(brought_together<std::uint64_t>(stars, hash, hash), std::identity{})) {
             return true;
         }
         const auto point = [&](std::size_t v) { return part_.points[v]; };
@@ -190,11 +201,12 @@ private:
     }
 
     bool ids_differ(const PartStars<D>& stars) const {
+        const auto hash_of = [](std::int64_t id) { return combined_hash(0, static_cast<std::uint64_t>(id)); };
         const auto id = [&](std::size_t v) { return part_.vertex_ids[v]; };
-        const auto hash = [&](std::size_t v) { return static_cast<std::uint64_t>(part_.vertex_ids[v]); };
+        const auto hash = [&](std::size_t v) { return hash_of(part_.vertex_ids[v]); };
         const Array<std::int64_t> here = brought_together<std::int64_t>(stars, hash, id);
         const bool sound = std::all_of(here.begin(), here.end(), [](std::int64_t each) { return each >= 0; });
-        return all(sound) && all_differ(here);
+        return all(sound) && all_differ(here, hash_of);
     }
 
     // --- measures

@@ -2,6 +2,9 @@
 // Cells that one rank sends to another, and their numbers there.
 #pragma once
 
+#include "core/ascending_numbers.h"
+#include "core/pieces.h"
+#include "slab/check/part_exchange.h"
 #include "slabhull/core/array.h"
 #include "slabhull/core/index.h"
 #include "slabhull/slab/hull_part.h"
@@ -12,26 +15,68 @@
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace slabhull {
 
-/// A cell in the numbers of the hull.
+/// A cell as one rank sends it to another.
 template<int D>
-struct CellInHull {
-    std::uint64_t number;
-    std::array<std::uint64_t, D + 1> vertices;
-    std::array<std::uint64_t, D + 1> neighbors;
+struct GhostCell {
+    std::uint64_t number;                       ///< in the hull
+    std::array<std::uint64_t, D + 1> neighbors; ///< in the hull
+    Simplex<D> vertices;                        ///< places in the list of points that is sent, too
 };
 
+/// Inserts the points of some of the part's cells, for sending these.
 template<int D>
-CellInHull<D> cell_in_hull(const HullPart<D>& part, std::size_t c) {
-    CellInHull<D> cell{};
+void insert_points_of(const HullPart<D>& part, std::span<const Index> cells, PointSet& points) {
+    for (const Index c : cells) {
+        for (const Index v : part.cells[c]) {
+            points.insert(v);
+        }
+    }
+}
+
+/// The numbers in the hull of some of the part's points.
+template<int D>
+Array<std::uint64_t> numbers_of(const HullPart<D>& part, const PointSet& points) {
+    Array<std::uint64_t> numbers;
+    numbers.reserve(points.size());
+    each_point_in(points.words(), [&](std::size_t, std::size_t v) {
+        numbers.push_back(part.points_used->member(v));
+    });
+    return numbers;
+}
+
+template<int D>
+GhostCell<D> ghost_cell(const HullPart<D>& part, Index c, const PointSet& sent) {
+    GhostCell<D> cell{};
     cell.number = part.range.first + c;
     for (std::size_t i = 0; i <= D; ++i) {
-        cell.vertices[i] = part.points_used->member(part.cells[c][i]);
         cell.neighbors[i] = part.in_hull(part.neighbors[c][i]);
+        cell.vertices[i] = static_cast<Index>(sent.rank(part.cells[c][i]));
     }
     return cell;
+}
+
+template<int D>
+Array<GhostCell<D>> ghost_cells(const HullPart<D>& part, std::span<const Index> cells, const PointSet& sent) {
+    Array<GhostCell<D>> ghosts(cells.size());
+    std::transform(cells.begin(), cells.end(), ghosts.begin(),
+                   [&](Index c) { return ghost_cell<D>(part, c, sent); });
+    return ghosts;
+}
+
+/// The numbers in the hull of ghosts, in order.
+template<class Ghost>
+Array<std::uint64_t> numbers_of_ghosts(const std::vector<Array<Ghost>>& lists) {
+    Array<std::uint64_t> numbers;
+    for (const Array<Ghost>& ghosts : lists) {
+        for (const Ghost& ghost : ghosts) {
+            numbers.push_back(ghost.number);
+        }
+    }
+    return numbers;
 }
 
 /// Calls visit(owner) once for each of the owners that a cell's vertices have; `owners` are those of all
@@ -41,9 +86,12 @@ void each_owner(const Simplex<D>& cell, const Array<std::int32_t>& owners, const
     std::array<std::int32_t, D + 1> of_vertices;
     for (std::size_t i = 0; i <= D; ++i) {
         of_vertices[i] = owners[cell[i]];
-        const auto here = of_vertices.begin() + i;
-        if (std::find(of_vertices.begin(), here, *here) == here) {
-            visit(*here);
+        bool again = false;
+        for (std::size_t j = 0; j < i; ++j) {
+            again |= of_vertices[j] == of_vertices[i];
+        }
+        if (!again) {
+            visit(of_vertices[i]);
         }
     }
 }
@@ -52,21 +100,29 @@ void each_owner(const Simplex<D>& cell, const Array<std::int32_t>& owners, const
 template<int D>
 class LocalNumbering {
 public:
-    /// `points`: those that only ghosts have, ascending. `cells`: the ghosts; the first `leading` of
-    /// them ascend, and so do the others.
-    LocalNumbering(const HullPart<D>& part, Array<std::uint64_t> points, Array<std::uint64_t> cells,
-                   std::size_t leading)
-        : part_{part}, points_{std::move(points)}, cells_{std::move(cells)}, leading_{leading} {}
+    /// `points`: those of the ghosts, in any order. `leading` and `others`: the ghosts, in two lists of which
+    /// each ascends.
+    LocalNumbering(const HullPart<D>& part, Array<std::uint64_t> points, Array<std::uint64_t> leading,
+                   Array<std::uint64_t> others)
+        : part_{part}, points_{not_in(part, std::move(points))}, leading_{std::move(leading)},
+          others_{std::move(others)} {}
 
     std::size_t point_count() const { return part_.points.size() + points_.size(); }
+    std::size_t cell_count() const { return part_.cells.size() + leading_.size() + others_.size(); }
+
+    /// What points are here. Needs: points that are.
+    Array<Index> points(std::span<const std::uint64_t> numbers) const {
+        Array<Index> here(numbers.size());
+        std::transform(numbers.begin(), numbers.end(), here.begin(),
+                       [this](std::uint64_t number) { return point(number); });
+        return here;
+    }
 
     /// Needs: a point that is here.
     Index point(std::uint64_t number) const {
-        if (part_.points_used->contains(number)) {
-            return static_cast<Index>(part_.points_used->rank(number));
-        }
-        const auto place = std::lower_bound(points_.begin(), points_.end(), number) - points_.begin();
-        return static_cast<Index>(part_.points.size() + static_cast<std::size_t>(place));
+        return static_cast<Index>(part_.points_used->contains(number)
+                                      ? part_.points_used->rank(number)
+                                      : part_.points.size() + points_.place(number));
     }
 
     /// no_index for a cell that is not here.
@@ -74,20 +130,21 @@ public:
         if (part_.range.contains(number)) {
             return static_cast<Index>(number - part_.range.first);
         }
-        const std::span<const std::uint64_t> all{cells_};
-        for (const auto& list : {all.first(leading_), all.subspan(leading_)}) {
-            const auto place = std::lower_bound(list.begin(), list.end(), number);
-            if (place != list.end() && *place == number) {
-                return static_cast<Index>(part_.cells.size() +
-                                          static_cast<std::size_t>(&*place - all.data()));
-            }
+        if (const Index place = leading_.place(number); place != no_index) {
+            return static_cast<Index>(part_.cells.size() + place);
         }
-        return no_index;
+        const Index place = others_.place(number);
+        return place == no_index ? no_index
+                                 : static_cast<Index>(part_.cells.size() + leading_.size() + place);
     }
 
     /// The hull's number of a cell that is here.
     std::uint64_t in_hull(Index cell) const {
-        return cell < part_.cells.size() ? part_.range.first + cell : cells_[cell - part_.cells.size()];
+        if (cell < part_.cells.size()) {
+            return part_.range.first + cell;
+        }
+        const std::size_t ghost = cell - part_.cells.size();
+        return ghost < leading_.size() ? leading_[ghost] : others_[ghost - leading_.size()];
     }
 
     /// What the cells of HullPart::outside are here: ghosts, or no_index.
@@ -98,20 +155,30 @@ public:
         return here;
     }
 
-    void append(const CellInHull<D>& ghost, Array<Simplex<D>>& cells, Array<Neighbors<D>>& neighbors) const {
+    /// Appends a ghost; `points`: what the points that came with it are here.
+    void append(const GhostCell<D>& ghost, std::span<const Index> points, Array<Simplex<D>>& cells,
+                Array<Neighbors<D>>& neighbors) const {
         Simplex<D>& vertices = cells.emplace_back();
         Neighbors<D>& across = neighbors.emplace_back();
         for (std::size_t i = 0; i <= D; ++i) {
-            vertices[i] = point(ghost.vertices[i]);
+            vertices[i] = points[ghost.vertices[i]];
             across[i] = cell(ghost.neighbors[i]);
         }
     }
 
 private:
+    static Array<std::uint64_t> not_in(const HullPart<D>& part, Array<std::uint64_t> points) {
+        points.erase(std::remove_if(points.begin(), points.end(),
+                                    [&](std::uint64_t each) { return part.points_used->contains(each); }),
+                     points.end());
+        sort_out(points);
+        return points;
+    }
+
     const HullPart<D>& part_;
-    Array<std::uint64_t> points_;
-    Array<std::uint64_t> cells_;
-    std::size_t leading_;
+    AscendingNumbers points_; ///< that only ghosts have
+    AscendingNumbers leading_;
+    AscendingNumbers others_;
 };
 
 } // namespace slabhull

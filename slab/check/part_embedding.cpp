@@ -147,26 +147,25 @@ private:
     Array<CapOf> caps_; ///< of the part's cells, then of those outside
 };
 
-template<int D>
-struct SentPoint {
-    std::uint64_t number;
-    Point<D + 1> place;
+/// What one rank sends to another: groups of tested cells, in order, and cells that are not tested but touch
+/// tested ones. `Cell`: GhostCell, or before that a cell's number in the part.
+template<int D, class Cell>
+struct CellsForRank {
+    Array<std::uint8_t> sizes; ///< of the groups
+    Array<Cell> tested;
+    Array<Cell> touching;
+    Array<std::uint64_t> points; ///< of the cells, in the hull
+    Array<Point<D + 1>> places;  ///< of these points
 };
 
-/// What one rank sends to another, or has received from all: groups of tested cells, in order, and cells that
-/// are not tested but touch tested ones.
+/// The same from all ranks, each list in their order.
 template<int D>
-struct SentCells {
-    Array<std::uint8_t> sizes; ///< of the groups
-    Array<CellInHull<D>> tested;
-    Array<CellInHull<D>> touching;
-    Array<SentPoint<D>> points;
-
-    template<class Visit>
-    void each_cell(const Visit& visit) const {
-        std::for_each(tested.begin(), tested.end(), visit);
-        std::for_each(touching.begin(), touching.end(), visit);
-    }
+struct CellsFromRanks {
+    std::vector<Array<std::uint8_t>> sizes;
+    std::vector<Array<GhostCell<D>>> tested;
+    std::vector<Array<GhostCell<D>>> touching;
+    std::vector<Array<std::uint64_t>> points;
+    std::vector<Array<Point<D + 1>>> places;
 };
 
 /// What one rank's search needs beside its part: the tested cells of later ranks that may meet its own, and
@@ -184,10 +183,11 @@ struct GhostsOfSearch {
 template<int D>
 class SearchAssembly {
 public:
-    SearchAssembly(const HullPart<D>& part, Communicator& ranks, std::span<const CapOf> caps)
-        : part_{part}, ranks_{ranks}, caps_{caps}, touching_{part.cells.size()},
-          sizes_{group_sizes<D>(part.cells, caps)}, owners_{lowest_at_points<std::int32_t>(
-                                                        part, ranks, ranks_of_tested_points())} {}
+    /// `groups`: of the part's cells.
+    SearchAssembly(const HullPart<D>& part, Communicator& ranks, std::span<const CapOf> caps,
+                   const CellGroups<D>& groups)
+        : part_{part}, ranks_{ranks}, caps_{caps}, groups_{groups}, touching_{part.cells.size()},
+          owners_{lowest_at_points<std::int32_t>(part, ranks, ranks_of_tested_points())} {}
 
     /// The lowest rank that has a tested cell at each point; no_rank where none has.
     const Array<std::int32_t>& owners() const { return owners_; }
@@ -195,11 +195,9 @@ public:
     const PointSet& touching() const { return touching_; }
 
     GhostsOfSearch<D> run() {
-        SentCells<D> sent = exchange();
-        std::vector<std::uint8_t>{}.swap(sizes_);
-        GhostsOfSearch<D> ghosts{numbering(sent), std::move(sent.sizes), {}, {}, {}};
-        list_points(sent, ghosts);
-        list_cells(sent, ghosts);
+        CellsFromRanks<D> sent = exchange();
+        GhostsOfSearch<D> ghosts{numbering(sent), joined(std::move(sent.sizes)), {}, {}, {}};
+        list_ghosts(sent, ghosts);
         return ghosts;
     }
 
@@ -219,86 +217,108 @@ private:
 
     // --- what is sent
 
-    /// Calls visit(first, count) for the cells of each group of own tested cells.
-    template<class Visit>
-    void each_group(const Visit& visit) const {
-        std::size_t c = 0;
-        for (const std::uint8_t size : sizes_) {
-            if (size > 0) {
-                visit(c, std::size_t{size});
-            }
-            c += std::max<std::size_t>(size, 1);
-        }
-    }
-
-    Box<D + 1> group_box(std::size_t first, std::size_t count) const {
+    Box<D + 1> group_box(std::size_t group) const {
         Box<D + 1> box;
-        for (std::size_t c = first; c < first + count; ++c) {
-            box.include(box_of<D>(part_.cells[c], part_.points));
+        for (const Index v : groups_.vertices(group)) {
+            box.include(part_.points[v]);
         }
         return box;
     }
 
-    Array<Box<D + 1>> group_boxes() const {
-        Array<Box<D + 1>> boxes;
-        each_group([&](std::size_t first, std::size_t count) { boxes.push_back(group_box(first, count)); });
-        return boxes;
+    /// A box around all tested cells of each later rank that has some.
+    Array<Box<D + 1>> boxes_of_later_ranks() const {
+        Box<D + 1> own;
+        for (std::size_t g = 0; g < groups_.own(); ++g) {
+            own.include(group_box(g));
+        }
+        Array<Box<D + 1>> later;
+        const std::vector<Box<D + 1>> all = ranks_.gather(own);
+        const std::vector<std::size_t> groups = ranks_.gather(groups_.own());
+        for (auto r = static_cast<std::size_t>(ranks_.rank()) + 1; r < all.size(); ++r) {
+            if (groups[r] > 0) {
+                later.push_back(all[r]);
+            }
+        }
+        return later;
     }
 
-    SentCells<D> exchange() {
-        std::vector<SentCells<D>> to(static_cast<std::size_t>(ranks_.size()));
-        list_groups_for_others(to);
-        list_touching_cells(to);
-        for (SentCells<D>& there : to) {
-            list_points_of(there);
+    /// Boxes around those of the part's tested cells that later ranks' may meet.
+    Array<Box<D + 1>> boxes_for_later_ranks() const {
+        constexpr std::size_t most = 1 << 13; // half a megabyte
+        const Array<Box<D + 1>> later = boxes_of_later_ranks();
+        Array<Box<D + 1>> boxes;
+        if (later.empty()) {
+            return boxes;
         }
-        SentCells<D> received;
-        received.sizes = passed(to, &SentCells<D>::sizes);
-        received.tested = passed(to, &SentCells<D>::tested);
-        received.touching = passed(to, &SentCells<D>::touching);
-        received.points = passed(to, &SentCells<D>::points);
+        const BoxTree<D + 1> tree{later};
+        for (std::size_t g = 0; g < groups_.own(); ++g) {
+            const Box<D + 1> box = group_box(g);
+            bool meets = false;
+            tree.find(box, [&](Index) { meets = true; });
+            if (meets) {
+                boxes.push_back(box);
+            }
+        }
+        return boxes.size() <= most ? boxes : BoxTree<D + 1>{boxes}.at_most(most);
+    }
+
+    CellsFromRanks<D> exchange() {
+        std::vector<CellsForRank<D, Index>> cells(static_cast<std::size_t>(ranks_.size()));
+        list_groups_for_others(cells);
+        list_touching_cells(cells);
+        std::vector<CellsForRank<D, GhostCell<D>>> to(cells.size());
+        for (std::size_t r = 0; r < cells.size(); ++r) {
+            to[r] = for_rank(std::exchange(cells[r], {}));
+        }
+        CellsFromRanks<D> received;
+        received.sizes = passed(to, &CellsForRank<D, GhostCell<D>>::sizes);
+        received.tested = passed(to, &CellsForRank<D, GhostCell<D>>::tested);
+        received.touching = passed(to, &CellsForRank<D, GhostCell<D>>::touching);
+        received.points = passed(to, &CellsForRank<D, GhostCell<D>>::points);
+        received.places = passed(to, &CellsForRank<D, GhostCell<D>>::places);
         return received;
     }
 
-    /// Sends one of the lists to each rank and releases it; returns those that come, in the order of ranks.
+    /// Sends one of the lists to each rank and releases it.
     template<class T>
-    Array<T> passed(std::vector<SentCells<D>>& to, Array<T> SentCells<D>::*list) const {
+    std::vector<Array<T>> passed(std::vector<CellsForRank<D, GhostCell<D>>>& to,
+                                 Array<T> CellsForRank<D, GhostCell<D>>::*list) const {
         std::vector<Array<T>> lists(to.size());
         for (std::size_t r = 0; r < to.size(); ++r) {
             lists[r] = std::move(to[r].*list);
         }
-        std::vector<Array<T>> received = ranks_.all_to_all(lists);
-        std::vector<Array<T>>{}.swap(lists);
-        return joined(std::move(received));
+        return ranks_.all_to_all(lists);
     }
 
     /// Groups go to the earlier ranks near whose cells they are.
-    void list_groups_for_others(std::vector<SentCells<D>>& to) const {
-        constexpr std::size_t most_boxes = 1 << 13; // of each rank: half a megabyte
-        const auto near = ranks_.all_gather<Box<D + 1>>(BoxTree<D + 1>{group_boxes()}.at_most(most_boxes));
+    void list_groups_for_others(std::vector<CellsForRank<D, Index>>& to) const {
+        const auto near = ranks_.all_gather<Box<D + 1>>(boxes_for_later_ranks());
         Array<Box<D + 1>> earlier;
         std::vector<std::size_t> rank_of;
         for (std::size_t r = 0; r < static_cast<std::size_t>(ranks_.rank()); ++r) {
             earlier.insert(earlier.end(), near[r].begin(), near[r].end());
             rank_of.resize(earlier.size(), r);
         }
+        if (earlier.empty()) {
+            return;
+        }
         const BoxTree<D + 1> tree{earlier};
         std::vector<std::size_t> targets;
-        each_group([&](std::size_t first, std::size_t count) {
+        for (std::size_t g = 0; g < groups_.own(); ++g) {
             targets.clear();
-            tree.find(group_box(first, count), [&](Index box) { targets.push_back(rank_of[box]); });
+            tree.find(group_box(g), [&](Index box) { targets.push_back(rank_of[box]); });
             sort_out(targets);
             for (const std::size_t r : targets) {
-                to[r].sizes.push_back(static_cast<std::uint8_t>(count));
-                for (std::size_t c = first; c < first + count; ++c) {
-                    to[r].tested.push_back(cell_in_hull(part_, c));
+                to[r].sizes.push_back(static_cast<std::uint8_t>(groups_.cell_count(g)));
+                for (std::size_t k = 0; k < groups_.cell_count(g); ++k) {
+                    to[r].tested.push_back(static_cast<Index>(groups_.first_cell(g) + k));
                 }
             }
-        });
+        }
     }
 
     /// Cells that are not tested go to the owners of their vertices, which prove the stars.
-    void list_touching_cells(std::vector<SentCells<D>>& to) {
+    void list_touching_cells(std::vector<CellsForRank<D, Index>>& to) {
         for (std::size_t c = 0; c < caps_.size(); ++c) {
             if (is_tested(c)) {
                 continue;
@@ -307,69 +327,67 @@ private:
                 if (owner == ranks_.rank()) {
                     touching_.insert(c);
                 } else if (owner != no_rank) {
-                    to[static_cast<std::size_t>(owner)].touching.push_back(cell_in_hull(part_, c));
+                    to[static_cast<std::size_t>(owner)].touching.push_back(static_cast<Index>(c));
                 }
             });
         }
         touching_.count();
     }
 
-    void list_points_of(SentCells<D>& there) const {
-        if (there.tested.empty() && there.touching.empty()) {
-            return;
+    CellsForRank<D, GhostCell<D>> for_rank(CellsForRank<D, Index> cells) const {
+        CellsForRank<D, GhostCell<D>> sent{std::move(cells.sizes), {}, {}, {}, {}};
+        if (cells.tested.empty() && cells.touching.empty()) {
+            return sent;
         }
-        PointSet used{part_.points.size()};
-        there.each_cell([&](const CellInHull<D>& cell) {
-            for (const std::uint64_t number : cell.vertices) {
-                used.insert(part_.points_used->rank(number));
-            }
-        });
-        used.count();
-        there.points.reserve(used.size());
-        each_point_in(used.words(), [&](std::size_t, std::size_t point) {
-            there.points.push_back({part_.points_used->member(point), part_.points[point]});
-        });
+        PointSet points{part_.points.size()};
+        insert_points_of<D>(part_, cells.tested, points);
+        insert_points_of<D>(part_, cells.touching, points);
+        points.count();
+        sent.points = numbers_of(part_, points);
+        each_point_in(points.words(),
+                      [&](std::size_t, std::size_t v) { sent.places.push_back(part_.points[v]); });
+        sent.tested = ghost_cells<D>(part_, cells.tested, points);
+        sent.touching = ghost_cells<D>(part_, cells.touching, points);
+        return sent;
     }
 
     // --- what is here
 
-    LocalNumbering<D> numbering(const SentCells<D>& sent) const {
-        Array<std::uint64_t> points;
-        for (const SentPoint<D>& point : sent.points) {
-            if (!part_.points_used->contains(point.number)) {
-                points.push_back(point.number);
-            }
-        }
-        sort_out(points);
-        Array<std::uint64_t> cells;
-        sent.each_cell([&](const CellInHull<D>& cell) { cells.push_back(cell.number); });
-        return {part_, std::move(points), std::move(cells), sent.tested.size()};
+    LocalNumbering<D> numbering(const CellsFromRanks<D>& sent) const {
+        LocalNumbering<D> numbers{part_, joined(sent.points), numbers_of_ghosts(sent.tested),
+                                  numbers_of_ghosts(sent.touching)};
+        checked_index(numbers.cell_count(), "cells of a part");
+        return numbers;
     }
 
-    void list_points(const SentCells<D>& sent, GhostsOfSearch<D>& ghosts) const {
-        ghosts.points.resize(ghosts.numbers.point_count() - part_.points.size());
-        for (const SentPoint<D>& point : sent.points) {
-            const Index here = ghosts.numbers.point(point.number);
-            if (here >= part_.points.size()) {
-                ghosts.points[here - part_.points.size()] = point.place;
+    void list_ghosts(const CellsFromRanks<D>& sent, GhostsOfSearch<D>& ghosts) const {
+        const LocalNumbering<D>& numbers = ghosts.numbers;
+        ghosts.points.resize(numbers.point_count() - part_.points.size());
+        ghosts.cells.reserve(numbers.cell_count() - part_.cells.size());
+        ghosts.neighbors.reserve(numbers.cell_count() - part_.cells.size());
+        std::vector<Array<Index>> points;
+        for (std::size_t r = 0; r < sent.points.size(); ++r) {
+            points.push_back(numbers.points(sent.points[r]));
+            for (std::size_t k = 0; k < points[r].size(); ++k) {
+                if (points[r][k] >= part_.points.size()) {
+                    ghosts.points[points[r][k] - part_.points.size()] = sent.places[r][k];
+                }
             }
         }
-    }
-
-    void list_cells(const SentCells<D>& sent, GhostsOfSearch<D>& ghosts) const {
-        const std::size_t count = sent.tested.size() + sent.touching.size();
-        checked_index(part_.cells.size() + count, "cells of a part");
-        ghosts.cells.reserve(count);
-        ghosts.neighbors.reserve(count);
-        sent.each_cell(
-            [&](const CellInHull<D>& cell) { ghosts.numbers.append(cell, ghosts.cells, ghosts.neighbors); });
+        for (const auto* lists : {&sent.tested, &sent.touching}) {
+            for (std::size_t r = 0; r < lists->size(); ++r) {
+                for (const GhostCell<D>& ghost : (*lists)[r]) {
+                    numbers.append(ghost, points[r], ghosts.cells, ghosts.neighbors);
+                }
+            }
+        }
     }
 
     const HullPart<D>& part_;
     Communicator& ranks_;
     std::span<const CapOf> caps_; ///< of the cells of the part; those in none are tested
+    const CellGroups<D>& groups_;
     PointSet touching_;
-    std::vector<std::uint8_t> sizes_; ///< of groups of own cells, see group_sizes()
     Array<std::int32_t> owners_;
 };
 
@@ -382,12 +400,13 @@ public:
     PartsEmbedding<D> run() {
         PartsEmbedding<D> result;
         const Array<CapOf> caps = unproven_to_none(result.all);
-        SearchAssembly<D> assembly{part_, ranks_, caps};
+        CellGroups<D> groups{part_.cells, caps};
+        SearchAssembly<D> assembly{part_, ranks_, caps, groups};
         const GhostsOfSearch<D> ghosts = assembly.run();
         const Array<Index> outside = ghosts.numbers.outside();
         const PartialMesh<D> mesh{part_.cells, part_.neighbors, outside, ghosts.cells, ghosts.neighbors, {}};
         const JoinedSpans<Point<D + 1>> points{part_.points, ghosts.points};
-        const CellGroups<D> groups{mesh, points.size(), caps, ghosts.sizes, assembly.touching()};
+        groups.add_ghosts(mesh, points.size(), ghosts.sizes, assembly.touching());
         const auto is_complete = [&](Index v) {
             return v < part_.points.size() && assembly.owners()[v] == ranks_.rank();
         };

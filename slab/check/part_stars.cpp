@@ -14,9 +14,8 @@ namespace slabhull {
 
 namespace {
 
-/// A cell as another rank is told of it.
 template<int D>
-struct GhostCell : CellInHull<D> {
+struct GhostOfCheck : GhostCell<D> {
     std::uint8_t region;
 };
 
@@ -34,59 +33,71 @@ public:
         stars.owned.resize(owners.size());
         std::transform(owners.begin(), owners.end(), stars.owned.begin(),
                        [&](std::int32_t owner) -> std::uint8_t { return owner == ranks_.rank() ? 1 : 0; });
-        exchange(owners);
+        exchange(cells_of_others(owners));
         number_ghosts(stars);
         return stars;
     }
 
 private:
-    /// Sends the cells at vertices of other owners there, and receives those at its own.
-    void exchange(const Array<std::int32_t>& owners) {
-        std::vector<Array<GhostCell<D>>> to(static_cast<std::size_t>(ranks_.size()));
+    /// The part's cells at vertices of each other owner.
+    std::vector<Array<Index>> cells_of_others(const Array<std::int32_t>& owners) const {
+        std::vector<Array<Index>> cells(static_cast<std::size_t>(ranks_.size()));
         for (std::size_t c = 0; c < part_.cells.size(); ++c) {
             each_owner<D>(part_.cells[c], owners, [&](std::int32_t owner) {
                 if (owner != ranks_.rank()) {
-                    to[static_cast<std::size_t>(owner)].push_back(
-                        {cell_in_hull(part_, c), static_cast<std::uint8_t>(view_.region_of(c))});
+                    cells[static_cast<std::size_t>(owner)].push_back(static_cast<Index>(c));
                 }
             });
         }
-        ghosts_ = joined(ranks_.all_to_all(to)); // ranks are in the order of cells
-        checked_index(part_.cells.size() + ghosts_.size(), "cells of a part");
+        return cells;
     }
 
-    LocalNumbering<D> numbering() const {
-        Array<std::uint64_t> points;
-        Array<std::uint64_t> cells;
-        for (const GhostCell<D>& ghost : ghosts_) {
-            cells.push_back(ghost.number);
-            for (const std::uint64_t number : ghost.vertices) {
-                if (!part_.points_used->contains(number)) {
-                    points.push_back(number);
-                }
+    /// Sends cells to the owners of their vertices, and receives those at its own.
+    void exchange(const std::vector<Array<Index>>& cells) {
+        std::vector<Array<GhostOfCheck<D>>> ghosts(cells.size());
+        std::vector<Array<std::uint64_t>> points(cells.size());
+        for (std::size_t r = 0; r < cells.size(); ++r) {
+            if (cells[r].empty()) {
+                continue;
+            }
+            PointSet sent{part_.points.size()};
+            insert_points_of<D>(part_, cells[r], sent);
+            sent.count();
+            points[r] = numbers_of(part_, sent);
+            for (const Index c : cells[r]) {
+                ghosts[r].push_back(
+                    {ghost_cell<D>(part_, c, sent), static_cast<std::uint8_t>(view_.region_of(c))});
             }
         }
-        sort_out(points);
-        return {part_, std::move(points), std::move(cells), ghosts_.size()};
+        ghosts_ = ranks_.all_to_all(ghosts);
+        points_ = ranks_.all_to_all(points);
+    }
+
+    /// Ranks are in the order of cells.
+    LocalNumbering<D> numbering() const {
+        LocalNumbering<D> numbers{part_, joined(points_), numbers_of_ghosts(ghosts_), {}};
+        checked_index(numbers.cell_count(), "cells of a part");
+        return numbers;
     }
 
     void number_ghosts(PartStars<D>& stars) const {
         const LocalNumbering<D> numbers = numbering();
         stars.owned.resize(numbers.point_count(), 0);
         stars.outside = numbers.outside();
-        stars.ghosts.reserve(ghosts_.size());
-        stars.ghost_neighbors.reserve(ghosts_.size());
-        stars.ghost_region.reserve(ghosts_.size());
-        for (const GhostCell<D>& ghost : ghosts_) {
-            numbers.append(ghost, stars.ghosts, stars.ghost_neighbors);
-            stars.ghost_region.push_back(ghost.region);
+        for (std::size_t r = 0; r < ghosts_.size(); ++r) {
+            const Array<Index> points = numbers.points(points_[r]);
+            for (const GhostOfCheck<D>& ghost : ghosts_[r]) {
+                numbers.append(ghost, points, stars.ghosts, stars.ghost_neighbors);
+                stars.ghost_region.push_back(ghost.region);
+            }
         }
     }
 
     const HullPart<D>& part_;
     const HullView<D>& view_;
     Communicator& ranks_;
-    Array<GhostCell<D>> ghosts_;
+    std::vector<Array<GhostOfCheck<D>>> ghosts_; ///< from each rank
+    std::vector<Array<std::uint64_t>> points_;   ///< theirs
 };
 
 } // namespace

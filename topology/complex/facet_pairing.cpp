@@ -17,7 +17,7 @@ bool pairs_facets(std::span<const Simplex<D>> cells, std::span<const Neighbors<D
     parallel_for(cells.size(), 1 << 15, [&](std::size_t begin, std::size_t end) {
         std::size_t found = 0;
         for (std::size_t c = begin; c < end; ++c) {
-            found += pairing.pairs_of(static_cast<Index>(c));
+            found += pairing.pairs_of(static_cast<Index>(c), [](std::size_t) { return true; });
         }
         pairs += found;
     });

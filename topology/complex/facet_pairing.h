@@ -12,9 +12,10 @@
 namespace slabhull {
 
 /// Whether `claimed` pairs all half-facets off: each cell has a neighbour across every facet, which shares
-/// that facet, lies on its other side by its orientation, and has the cell as its neighbour there. A facet
-/// of four cells passes when they are paired by twos, so this alone does not prove an adjacency. Needs:
-/// vertices in range; false for a claim of the wrong length or range. Cost: linear, no memory.
+/// that facet but not all of its vertices, lies on its other side by its orientation, and has the cell as its
+/// neighbour there. A facet of four cells passes when they are paired by twos, so this alone does not prove an
+/// adjacency. Needs: vertices in range; false for a claim of the wrong length or range. Cost: linear, no
+/// memory.
 template<int D>
 bool pairs_facets(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> claimed);
 
@@ -39,14 +40,16 @@ class FacetPairing {
 public:
     explicit FacetPairing(const Mesh& mesh) : mesh_{mesh} {}
 
-    /// How many facets of a cell are shared, mutually, with cells that come after it.
-    std::size_t pairs_of(Index cell) const {
+    /// How many of the facets of a cell, of those i for which `counts(i)`, are shared, mutually, with cells that
+    /// come after it.
+    template<class Counts>
+    std::size_t pairs_of(Index cell, const Counts& counts) const {
         const Simplex<D>& corners = mesh_.cell(cell);
         const Index all = parity<D>(corners);
         std::size_t pairs = 0;
         for (std::size_t i = 0; i <= D; ++i) {
             const Index across = mesh_.neighbor(cell, i);
-            if (across <= cell || across >= mesh_.size()) {
+            if (across <= cell || across >= mesh_.size() || !counts(i)) {
                 continue;
             }
             pairs += agree(cell, i, across, all) ? 1 : 0;
@@ -54,19 +57,14 @@ public:
         return pairs;
     }
 
-    /// Whether facet i of a cell is shared, mutually, with another cell. False for a neighbour that is none.
-    bool is_paired(Index cell, std::size_t i) const {
-        const Index across = mesh_.neighbor(cell, i);
-        return across < mesh_.size() && across != cell && agree(cell, i, across, parity<D>(mesh_.cell(cell)));
-    }
-
 private:
-    /// `all`: the parity of the cell.
+    /// `all`: the parity of the cell. A cell that shares a facet and has the same parity has the same vertices.
     bool agree(Index cell, std::size_t i, Index across, Index all) const {
         const Simplex<D>& corners = mesh_.cell(cell);
         const Simplex<D>& others = mesh_.cell(across);
-        const std::size_t place = place_of<D>(parity<D>(others) ^ all ^ corners[i], others);
-        return mesh_.neighbor(across, place) == cell &&
+        const Index all_others = parity<D>(others);
+        const std::size_t place = place_of<D>(all_others ^ all ^ corners[i], others);
+        return all != all_others && mesh_.neighbor(across, place) == cell &&
                are_opposite<D>(outward_facet<D>(corners, static_cast<int>(i)),
                                outward_facet<D>(others, static_cast<int>(place)));
     }

@@ -49,7 +49,7 @@ struct StarCounts {
 /// Whether the star of every wanted vertex is that of a closed oriented manifold: what confirm_manifold()
 /// proves of a whole mesh, vertex by vertex, so that parts whose wanted vertices are together all vertices
 /// prove it of the mesh. Nothing is trusted: each facet with a wanted vertex is compared with what is said to
-/// be across it. Empty where it is not so, for whatever reason. Needs: numbers in range. Cost: linear; 8
+/// be across it. Empty where it is not so, for whatever reason. Needs: numbers in range. Cost: linear; 4
 /// bytes per vertex.
 template<int D>
 std::optional<StarCounts> confirm_stars(const PartialMesh<D>& mesh);
