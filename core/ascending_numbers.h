@@ -11,8 +11,8 @@
 
 namespace slabhull {
 
-/// Numbers in ascending order, each once, whose places are found faster than by bisection: numbers with the same
-/// leading bits are looked through. Cost of that: 4 to 8 bytes for each.
+/// Numbers in ascending order, each once, whose places are found faster than by bisection: numbers with the
+/// same leading bits are looked through. Cost of that: 4 to 8 bytes for each.
 class AscendingNumbers {
 public:
     explicit AscendingNumbers(Array<std::uint64_t> numbers) : numbers_{std::move(numbers)} {

@@ -225,7 +225,8 @@ template<int D>
 void CellGroups<D>::find_prisms(std::span<const CapOf> caps) {
     cells_before_.push_back(0);
     first_vertex_.push_back(0);
-    const auto start = static_cast<std::size_t>(std::find(caps.begin(), caps.end(), CapOf::none) - caps.begin());
+    const auto start =
+        static_cast<std::size_t>(std::find(caps.begin(), caps.end(), CapOf::none) - caps.begin());
     auto pieces = parallel_pieces<GroupsOfPiece>(
         caps.size() - start, grain, [&](std::size_t begin, std::size_t end, GroupsOfPiece& groups) {
             groups = PrismFinder<D>{mesh_.own, caps}.cut(start + begin, start + end);

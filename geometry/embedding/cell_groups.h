@@ -29,8 +29,8 @@ public:
 
     /// `caps`: of each cell; those in no cap are tested.
     CellGroups(std::span<const Simplex<D>> cells, std::size_t vertex_count, std::span<const CapOf> caps);
-    /// Those of the own cells of a mesh whose ghosts add_ghosts() will bring; before that, only they are known,
-    /// not the groups at a vertex.
+    /// Those of the own cells of a mesh whose ghosts add_ghosts() will bring; before that, only they are
+    /// known, not the groups at a vertex.
     CellGroups(std::span<const Simplex<D>> cells, std::span<const CapOf> caps);
 
     /// `mesh`: with the same own cells. `ghost_sizes`: of the groups that the first ghosts are in, which are

@@ -129,7 +129,8 @@ private:
         std::vector<Link> links;
         for (std::size_t v = 0; v < part_.points.size(); ++v) {
             if (joined.is_root(static_cast<Index>(v))) {
-                links.push_back({label_of_point(static_cast<Index>(v)), label_of_point(static_cast<Index>(v))});
+                links.push_back(
+                    {label_of_point(static_cast<Index>(v)), label_of_point(static_cast<Index>(v))});
             }
         }
         const auto cells = static_cast<Index>(part_.cells.size());
@@ -181,7 +182,8 @@ private:
     template<class T, class HashOf>
     bool all_differ(const Array<T>& values, const HashOf& hash_of) const {
         std::vector<T> candidates;
-        for (const Index k : may_repeat(values.size(), [&](std::size_t each) { return hash_of(values[each]); })) {
+        for (const Index k :
+             may_repeat(values.size(), [&](std::size_t each) { return hash_of(values[each]); })) {
             candidates.push_back(values[k]);
         }
         std::sort(candidates.begin(), candidates.end());

@@ -42,9 +42,8 @@ template<int D>
 Array<std::uint64_t> numbers_of(const HullPart<D>& part, const PointSet& points) {
     Array<std::uint64_t> numbers;
     numbers.reserve(points.size());
-    each_point_in(points.words(), [&](std::size_t, std::size_t v) {
-        numbers.push_back(part.points_used->member(v));
-    });
+    each_point_in(points.words(),
+                  [&](std::size_t, std::size_t v) { numbers.push_back(part.points_used->member(v)); });
     return numbers;
 }
 

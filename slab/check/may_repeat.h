@@ -45,9 +45,9 @@ private:
     Array<std::uint64_t> words_;
 };
 
-/// Candidates for equal values, of `count` with hashes hash_of(k), ascending: all that are equal to another and
-/// an eighth of the others. A table of eight bits per value finds them in a sixth of the time of sorting all
-/// hashes. Needs: fewer than 2^32 values.
+/// Candidates for equal values, of `count` with hashes hash_of(k), ascending: all that are equal to another
+/// and an eighth of the others. A table of eight bits per value finds them in a sixth of the time of sorting
+/// all hashes. Needs: fewer than 2^32 values.
 template<class HashOf>
 std::vector<Index> may_repeat(std::size_t count, const HashOf& hash_of) {
     constexpr std::size_t grain = 1 << 16;

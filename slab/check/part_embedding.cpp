@@ -177,6 +177,8 @@ struct GhostsOfSearch {
     Array<Point<D + 1>> points; ///< that are not the part's
     Array<Simplex<D>> cells;    ///< in the part's points, then `points`
     Array<Neighbors<D>> neighbors;
+    PointSet touching; ///< the part's cells that are not tested, but complete a star of this rank's
+    Array<std::uint8_t> complete; ///< of the part's points, whether it is this rank that proves their stars
 };
 
 /// Brings together the cells that each rank's search needs.
@@ -189,14 +191,10 @@ public:
         : part_{part}, ranks_{ranks}, caps_{caps}, groups_{groups}, touching_{part.cells.size()},
           owners_{lowest_at_points<std::int32_t>(part, ranks, ranks_of_tested_points())} {}
 
-    /// The lowest rank that has a tested cell at each point; no_rank where none has.
-    const Array<std::int32_t>& owners() const { return owners_; }
-    /// The part's cells that are not tested, but complete a star of this rank's.
-    const PointSet& touching() const { return touching_; }
-
     GhostsOfSearch<D> run() {
         CellsFromRanks<D> sent = exchange();
-        GhostsOfSearch<D> ghosts{numbering(sent), joined(std::move(sent.sizes)), {}, {}, {}};
+        GhostsOfSearch<D> ghosts{
+            numbering(sent), joined(std::move(sent.sizes)), {}, {}, {}, std::move(touching_), owned()};
         list_ghosts(sent, ghosts);
         return ghosts;
     }
@@ -212,6 +210,13 @@ private:
                 result[v] = is_tested(c) ? ranks_.rank() : result[v];
             }
         }
+        return result;
+    }
+
+    Array<std::uint8_t> owned() const {
+        Array<std::uint8_t> result(owners_.size());
+        std::transform(owners_.begin(), owners_.end(), result.begin(),
+                       [&](std::int32_t owner) -> std::uint8_t { return owner == ranks_.rank() ? 1 : 0; });
         return result;
     }
 
@@ -388,7 +393,8 @@ private:
     std::span<const CapOf> caps_; ///< of the cells of the part; those in none are tested
     const CellGroups<D>& groups_;
     PointSet touching_;
-    Array<std::int32_t> owners_;
+    Array<std::int32_t>
+        owners_; ///< the lowest rank that has a tested cell at each point; no_rank where none has
 };
 
 template<int D>
@@ -399,16 +405,16 @@ public:
 
     PartsEmbedding<D> run() {
         PartsEmbedding<D> result;
-        const Array<CapOf> caps = unproven_to_none(result.all);
+        Array<CapOf> caps = unproven_to_none(result.all);
         CellGroups<D> groups{part_.cells, caps};
-        SearchAssembly<D> assembly{part_, ranks_, caps, groups};
-        const GhostsOfSearch<D> ghosts = assembly.run();
+        const GhostsOfSearch<D> ghosts = SearchAssembly<D>{part_, ranks_, caps, groups}.run();
+        Array<CapOf>{}.swap(caps); // the search takes much memory
         const Array<Index> outside = ghosts.numbers.outside();
         const PartialMesh<D> mesh{part_.cells, part_.neighbors, outside, ghosts.cells, ghosts.neighbors, {}};
         const JoinedSpans<Point<D + 1>> points{part_.points, ghosts.points};
-        groups.add_ghosts(mesh, points.size(), ghosts.sizes, assembly.touching());
+        groups.add_ghosts(mesh, points.size(), ghosts.sizes, ghosts.touching);
         const auto is_complete = [&](Index v) {
-            return v < part_.points.size() && assembly.owners()[v] == ranks_.rank();
+            return v < ghosts.complete.size() && ghosts.complete[v] != 0;
         };
         const HullEmbedding<D> own =
             search_crossings<D>({points, mesh, groups, [](std::span<const Index>) {}, is_complete,

@@ -13,8 +13,8 @@ namespace slabhull {
 
 /// Whether `claimed` pairs all half-facets off: each cell has a neighbour across every facet, which shares
 /// that facet but not all of its vertices, lies on its other side by its orientation, and has the cell as its
-/// neighbour there. A facet of four cells passes when they are paired by twos, so this alone does not prove an
-/// adjacency. Needs: vertices in range; false for a claim of the wrong length or range. Cost: linear, no
+/// neighbour there. A facet of four cells passes when they are paired by twos, so this alone does not prove
+/// an adjacency. Needs: vertices in range; false for a claim of the wrong length or range. Cost: linear, no
 /// memory.
 template<int D>
 bool pairs_facets(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> claimed);
@@ -40,8 +40,8 @@ class FacetPairing {
 public:
     explicit FacetPairing(const Mesh& mesh) : mesh_{mesh} {}
 
-    /// How many of the facets of a cell, of those i for which `counts(i)`, are shared, mutually, with cells that
-    /// come after it.
+    /// How many of the facets of a cell, of those i for which `counts(i)`, are shared, mutually, with cells
+    /// that come after it.
     template<class Counts>
     std::size_t pairs_of(Index cell, const Counts& counts) const {
         const Simplex<D>& corners = mesh_.cell(cell);
@@ -58,7 +58,8 @@ public:
     }
 
 private:
-    /// `all`: the parity of the cell. A cell that shares a facet and has the same parity has the same vertices.
+    /// `all`: the parity of the cell. A cell that shares a facet and has the same parity has the same
+    /// vertices.
     bool agree(Index cell, std::size_t i, Index across, Index all) const {
         const Simplex<D>& corners = mesh_.cell(cell);
         const Simplex<D>& others = mesh_.cell(across);

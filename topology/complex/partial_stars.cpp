@@ -45,12 +45,12 @@ private:
     bool facets_are_paired() {
         one_.assign(mesh_.wanted.size(), no_index);
         Facets all;
-        const auto pieces =
-            parallel_pieces<Facets>(mesh_.size(), 1 << 15, [&](std::size_t begin, std::size_t end, Facets& here) {
-                for (std::size_t c = begin; c < end; ++c) {
-                    look_at(static_cast<Index>(c), here);
-                }
-            });
+        const auto pieces = parallel_pieces<Facets>(mesh_.size(), 1 << 15,
+                                                    [&](std::size_t begin, std::size_t end, Facets& here) {
+                                                        for (std::size_t c = begin; c < end; ++c) {
+                                                            look_at(static_cast<Index>(c), here);
+                                                        }
+                                                    });
         for (const Facets& piece : pieces) {
             all.sound = all.sound && piece.sound;
             all.corners += piece.corners;
@@ -113,8 +113,8 @@ private:
 
     const PartialMesh<D>& mesh_;
     FacetPairing<D, PartialMesh<D>> pairing_;
-    Array<Index> one_;         ///< a cell at each wanted vertex
-    std::size_t corners_ = 0;  ///< wanted ones, of all cells
+    Array<Index> one_;        ///< a cell at each wanted vertex
+    std::size_t corners_ = 0; ///< wanted ones, of all cells
 };
 
 } // namespace
