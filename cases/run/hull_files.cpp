@@ -17,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <unordered_map>
 
 namespace slabhull {
@@ -58,9 +59,11 @@ Column<std::int64_t> ids(const Array<std::int64_t>& values) {
 template<int D>
 class CellsOfPoints {
 public:
-    explicit CellsOfPoints(const Hull<D>& hull)
-        : hull_{hull}, stretches_{hull.cells, hull.points.size()},
-          cell_(std::min(block, hull.points.size())) {}
+    explicit CellsOfPoints(const Hull<D>& hull) : hull_{hull}, cell_(std::min(block, hull.points.size())) {
+        if (hull.points.size() > block) {
+            stretches_.emplace(hull.cells, hull.points.size());
+        }
+    }
 
     void copy(std::size_t begin, std::size_t end, std::int64_t* out) {
         const std::lock_guard guard{lock_};
@@ -80,20 +83,27 @@ private:
         const std::size_t begin = which * block;
         const std::size_t end = std::min(hull_.points.size(), begin + block);
         std::fill(cell_.begin(), cell_.end(), no_index);
-        for (const Index stretch : stretches_.using_vertices(begin, end)) {
-            stretches_.each_cell(stretch, [&](std::size_t c) {
-                for (const Index v : hull_.cells[c]) {
-                    if (begin <= v && v < end) {
-                        Index& first = cell_[v - begin];
-                        first = std::min(first, static_cast<Index>(c));
-                    }
+        const auto visit = [&](std::size_t c) {
+            for (const Index v : hull_.cells[c]) {
+                if (begin <= v && v < end) {
+                    Index& first = cell_[v - begin];
+                    first = std::min(first, static_cast<Index>(c));
                 }
-            });
+            }
+        };
+        if (!stretches_) {
+            for (std::size_t c = 0; c < hull_.cells.size(); ++c) {
+                visit(c);
+            }
+            return;
+        }
+        for (const Index stretch : stretches_->using_vertices(begin, end)) {
+            stretches_->each_cell(stretch, visit);
         }
     }
 
     const Hull<D>& hull_;
-    CellStretches<D> stretches_;
+    std::optional<CellStretches<D>> stretches_; ///< where points are more than one block
     std::mutex lock_;
     Array<Index> cell_; ///< of the block's points
     std::size_t block_ = static_cast<std::size_t>(-1);

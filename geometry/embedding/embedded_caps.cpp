@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -42,18 +43,41 @@ std::array<Index, 2> edge(Index a, Index b) {
     return {std::min(a, b), std::max(a, b)};
 }
 
+/// Whether each point is at a time: a byte of each stays in a cache, where the points do not.
+template<int D>
+Array<std::uint8_t> points_at(std::span<const Point<D + 1>> points, double time) {
+    Array<std::uint8_t> at(points.size());
+    parallel_for(points.size(), cap_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            at[v] = points[v][D] == time ? 1 : 0;
+        }
+    });
+    return at;
+}
+
+/// How many of a cell's vertices are marked.
+template<int D>
+int marked_corners(const Simplex<D>& cell, const Array<std::uint8_t>& marks) {
+    int count = 0;
+    for (const Index v : cell) {
+        count += marks[v];
+    }
+    return count;
+}
+
 template<int D>
 class SideCheck {
 public:
     SideCheck(const CellsInCaps<D>& hull, double time, std::span<const Index> on_boundary,
               std::span<const std::array<Index, 2>> edges)
-        : hull_{hull}, time_{time}, on_boundary_{on_boundary}, edges_{edges} {}
+        : hull_{hull}, at_time_{points_at<D>(hull.points, time)}, on_boundary_{on_boundary}, edges_{edges} {}
 
     bool holds() const {
         std::atomic<bool> all = true;
         parallel_for(hull_.cells.size(), cap_grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
-                if (hull_.caps[c] == CapOf::none && !face_on_boundary(c)) {
+                if (marked_corners<D>(hull_.cells[c], at_time_) > 0 && hull_.caps[c] == CapOf::none &&
+                    !face_on_boundary(c)) {
                     all = false;
                 }
             }
@@ -68,7 +92,7 @@ private:
         std::size_t count = 0;
         std::size_t off = 0; ///< a local vertex that is not at this time
         for (std::size_t i = 0; i <= D; ++i) {
-            if (hull_.points[hull_.cells[c][i]][D] == time_) {
+            if (at_time_[hull_.cells[c][i]] != 0) {
                 at[count++] = on_boundary_[hull_.cells[c][i]];
             } else {
                 off = i;
@@ -85,7 +109,7 @@ private:
     }
 
     const CellsInCaps<D>& hull_;
-    double time_;
+    Array<std::uint8_t> at_time_; ///< of each point, whether it is at the cap's
     std::span<const Index> on_boundary_;
     std::span<const std::array<Index, 2>> edges_;
 };
@@ -145,14 +169,14 @@ std::array<double, 2> time_span(const JoinedSpans<Point<D + 1>>& points, std::sp
 template<int D>
 Array<CapOf> find_caps(std::span<const Point<D + 1>> points, std::span<const Simplex<D>> cells,
                        const std::array<double, 2>& times) {
+    const Array<std::uint8_t> first = points_at<D>(points, times[0]);
+    const Array<std::uint8_t> last = points_at<D>(points, times[1]);
     Array<CapOf> caps(cells.size());
     parallel_for(cells.size(), cap_grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
-            const auto all_at = [&](double time) {
-                return std::all_of(cells[c].begin(), cells[c].end(),
-                                   [&](Index v) { return points[v][D] == time; });
-            };
-            caps[c] = all_at(times[0]) ? CapOf::first : all_at(times[1]) ? CapOf::last : CapOf::none;
+            const bool in_first = marked_corners<D>(cells[c], first) == D + 1;
+            const bool in_last = marked_corners<D>(cells[c], last) == D + 1;
+            caps[c] = in_first ? CapOf::first : in_last ? CapOf::last : CapOf::none;
         }
     });
     return caps;

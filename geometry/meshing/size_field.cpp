@@ -103,15 +103,30 @@ private:
     /// The candidate with the least spacing at `centre`, or `end`; leaves the spacings in values_.
     std::size_t find_best(const Point<D>& centre, std::size_t begin, std::size_t end) {
         find_values(centre, begin, end);
-        std::size_t best = end;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = begin; i < end; ++i) {
-            if (values_[i - begin] < least) {
-                least = values_[i - begin];
-                best = i;
+        const auto values = std::span{values_}.first(end - begin);
+        const double least = least_of(values);
+        if (!(least < std::numeric_limits<double>::infinity())) {
+            return end;
+        }
+        return begin +
+               static_cast<std::size_t>(std::find(values.begin(), values.end(), least) - values.begin());
+    }
+
+    /// Of several lists in turn, so that no comparison waits for the one before.
+    static double least_of(std::span<const double> values) {
+        constexpr std::size_t lists = 8;
+        std::array<double, lists> least;
+        least.fill(std::numeric_limits<double>::infinity());
+        const std::size_t whole = values.size() / lists * lists;
+        for (std::size_t i = 0; i < whole; i += lists) {
+            for (std::size_t k = 0; k < lists; ++k) {
+                least[k] = values[i + k] < least[k] ? values[i + k] : least[k];
             }
         }
-        return best;
+        for (std::size_t i = whole; i < values.size(); ++i) {
+            least[i - whole] = values[i] < least[i - whole] ? values[i] : least[i - whole];
+        }
+        return *std::min_element(least.begin(), least.end());
     }
 
     /// A loop of its own, without a branch and with the centre as a copy, so that compilers use vector

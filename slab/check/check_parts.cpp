@@ -11,7 +11,6 @@
 #include "slab/check/part_stars.h"
 #include "slabhull/core/index.h"
 #include "slabhull/core/memory.h"
-#include "slabhull/core/parallel.h"
 #include "slabhull/core/progress.h"
 #include "slabhull/topology/partial_stars.h"
 #include "topology/complex/union_find.h"
@@ -25,8 +24,6 @@
 namespace slabhull {
 
 namespace {
-
-constexpr std::size_t cells_per_piece = 1 << 16;
 
 template<int D>
 class PartCheck {
@@ -112,14 +109,7 @@ private:
     /// Components of the parts, joined across the facets between them. Those by shared vertices are those by
     /// shared facets, since every star is joined through facets; vertices are fewer than cells.
     std::size_t components() const {
-        UnionFind joined{part_.points.size()};
-        parallel_for(part_.cells.size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c) {
-                for (std::size_t i = 1; i <= D; ++i) {
-                    joined.join(part_.cells[c][0], part_.cells[c][i]);
-                }
-            }
-        });
+        UnionFind joined = joined_vertices<D + 1>(part_.cells, part_.points.size());
         const auto label_of_point = [&](Index v) {
             return static_cast<std::uint64_t>(ranks_.rank()) << 32 | joined.find(v);
         };

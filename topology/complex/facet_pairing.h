@@ -11,14 +11,6 @@
 
 namespace slabhull {
 
-/// Whether `claimed` pairs all half-facets off: each cell has a neighbour across every facet, which shares
-/// that facet but not all of its vertices, lies on its other side by its orientation, and has the cell as its
-/// neighbour there. A facet of four cells passes when they are paired by twos, so this alone does not prove
-/// an adjacency. Needs: vertices in range; false for a claim of the wrong length or range. Cost: linear, no
-/// memory.
-template<int D>
-bool pairs_facets(std::span<const Simplex<D>> cells, std::span<const Neighbors<D>> claimed);
-
 /// Whether two facets are the same with opposite orientations: the second is a rotation of the first
 /// reversed.
 template<int D>
@@ -34,7 +26,10 @@ bool are_opposite(const Facet<D>& a, const Facet<D>& b) {
     return any;
 }
 
-/// Compares facets of a mesh with what is said to be across them. Needs: vertices in range.
+/// Compares facets of a mesh with what is said to be across them: a cell that shares the facet but not all of
+/// its vertices, lies on its other side by its orientation, and has the first one as its neighbour there. A
+/// facet of four cells passes when they are paired by twos, so this alone does not prove an adjacency. Needs:
+/// vertices in range; neighbours may be any numbers.
 template<int D, class Mesh>
 class FacetPairing {
 public:

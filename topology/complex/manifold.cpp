@@ -7,10 +7,10 @@
 #include "slabhull/core/progress.h"
 #include "slabhull/topology/cell_stretches.h"
 #include "topology/complex/cell_lists.h"
-#include "topology/complex/facet_pairing.h"
 #include "topology/complex/link.h"
 #include "topology/complex/repeated_vertex.h"
 #include "topology/complex/sorted_cell.h"
+#include "topology/complex/star_confirmation.h"
 #include "topology/complex/star_counter.h"
 #include "topology/complex/union_find.h"
 
@@ -87,9 +87,6 @@ public:
                          [](const ManifoldFinding& a, const ManifoldFinding& b) { return a.what < b.what; });
         return std::move(report_);
     }
-
-    /// After run(): whether no vertex had to be examined closely.
-    bool sound() const { return sound_; }
 
 private:
     // --- cells
@@ -414,15 +411,8 @@ private:
         if (!adjacency_.defects.empty() || !discredited_.empty() || !sound_) {
             return count_components<D>(adjacency_.neighbors);
         }
-        UnionFind joined{vertex_count_};
-        parallel_for(cells_.size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c) {
-                for (std::size_t i = 1; i <= D; ++i) {
-                    joined.join(cells_[c][0], cells_[c][i]);
-                }
-            }
-        });
-        return joined.count_sets() - (vertex_count_ - report_.counts.vertices);
+        return joined_vertices<D + 1>(cells_, vertex_count_).count_sets() -
+               (vertex_count_ - report_.counts.vertices);
     }
 
     std::span<const Simplex<D>> cells_;
@@ -447,12 +437,22 @@ ManifoldReport examine_manifold(std::span<const Simplex<D>> cells, std::size_t v
 template<int D>
 std::optional<ManifoldReport> confirm_manifold(std::span<const Simplex<D>> cells, std::size_t vertex_count,
                                                std::span<const Neighbors<D>> claimed) {
-    if (!pairs_facets<D>(cells, claimed)) {
+    if (claimed.size() != cells.size()) {
         return std::nullopt;
     }
-    Examination<D> examination{cells, vertex_count, AdjacencyView<D>{claimed}, {}};
-    ManifoldReport report = examination.run();
-    return report.clean() && examination.sound() ? std::optional{std::move(report)} : std::nullopt;
+    const WholeMesh<D> mesh{cells, claimed, vertex_count};
+    const std::optional<StarCounts> stars = StarConfirmation<D, WholeMesh<D>>{mesh}.run();
+    if (!stars) {
+        return std::nullopt;
+    }
+    ManifoldReport report;
+    report.counts.vertices = vertex_count;
+    report.counts.cells = cells.size();
+    report.counts.facets = cells.size() * (D + 1) / 2;
+    report.counts.edges = D == 2 ? report.counts.facets : stars->link_vertices / 2;
+    report.counts.components = joined_vertices<D + 1>(cells, vertex_count).count_sets();
+    report.counts.euler = euler_of<D>(report.counts);
+    return report;
 }
 
 template<int D>

@@ -3,11 +3,14 @@
 
 #include "slabhull/core/array.h"
 #include "slabhull/core/index.h"
+#include "slabhull/core/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <numeric>
+#include <span>
 
 namespace slabhull {
 
@@ -61,5 +64,20 @@ private:
 
     Array<Index> parent_;
 };
+
+/// The vertices of cells, joined by these.
+template<std::size_t N>
+UnionFind joined_vertices(std::span<const std::array<Index, N>> cells, std::size_t vertex_count) {
+    constexpr std::size_t grain = 1 << 16;
+    UnionFind joined{vertex_count};
+    parallel_for(cells.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            for (std::size_t i = 1; i < N; ++i) {
+                joined.join(cells[c][0], cells[c][i]);
+            }
+        }
+    });
+    return joined;
+}
 
 } // namespace slabhull

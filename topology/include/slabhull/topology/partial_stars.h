@@ -24,6 +24,8 @@ struct PartialMesh {
     std::span<const std::uint8_t> wanted;          ///< of each vertex, whether its star is to be examined
 
     std::size_t size() const { return own.size() + ghosts.size(); }
+    std::size_t vertex_count() const { return wanted.size(); }
+    bool is_wanted(Index vertex) const { return wanted[vertex] != 0; }
     const Simplex<D>& cell(Index c) const { return c < own.size() ? own[c] : ghosts[c - own.size()]; }
     Index neighbor(Index c, std::size_t i) const {
         if (c >= own.size()) {
