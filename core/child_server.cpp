@@ -9,6 +9,7 @@
 #include "core/child_server.h"
 
 #include "core/child_pipes.h"
+#include "core/heap_pages.h"
 #include "core/sanitizer_fork.h"
 
 #include "slabhull/core/child_process.h"
@@ -102,6 +103,8 @@ private:
 // --- in the server, its keepers and workers -------------------------------------------------------
 
 [[noreturn]] void work(const Order& order, int data, int news) {
+    constexpr std::size_t heap = std::size_t{256} << 20; // a million tetrahedra of TetGen's
+    grow_heap_in_huge_pages(heap);
     std::vector<std::byte> request(order.request_bytes);
     if (!transfer(::read, data, reinterpret_cast<char*>(request.data()), request.size())) {
         _exit(job_threw);
