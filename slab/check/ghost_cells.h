@@ -97,11 +97,11 @@ void each_owner(const Simplex<D>& cell, const Array<std::int32_t>& owners, const
 
 /// The numbers that points and cells of the hull have on a rank: first come the part's, then those of ghosts.
 template<int D>
-class LocalNumbering {
+class GhostNumbering {
 public:
     /// `points`: those of the ghosts, in any order. `leading` and `others`: the ghosts, in two lists of which
     /// each ascends.
-    LocalNumbering(const HullPart<D>& part, Array<std::uint64_t> points, Array<std::uint64_t> leading,
+    GhostNumbering(const HullPart<D>& part, Array<std::uint64_t> points, Array<std::uint64_t> leading,
                    Array<std::uint64_t> others)
         : part_{part}, points_{not_in(part, std::move(points))}, leading_{std::move(leading)},
           others_{std::move(others)} {}

@@ -172,7 +172,7 @@ struct CellsFromRanks {
 /// cells that are not tested but touch these.
 template<int D>
 struct GhostsOfSearch {
-    LocalNumbering<D> numbers;
+    GhostNumbering<D> numbers;
     Array<std::uint8_t> sizes;  ///< of the groups of tested ghosts, which come first
     Array<Point<D + 1>> points; ///< that are not the part's
     Array<Simplex<D>> cells;    ///< in the part's points, then `points`
@@ -358,15 +358,15 @@ private:
 
     // --- what is here
 
-    LocalNumbering<D> numbering(const CellsFromRanks<D>& sent) const {
-        LocalNumbering<D> numbers{part_, joined(sent.points), numbers_of_ghosts(sent.tested),
+    GhostNumbering<D> numbering(const CellsFromRanks<D>& sent) const {
+        GhostNumbering<D> numbers{part_, joined(sent.points), numbers_of_ghosts(sent.tested),
                                   numbers_of_ghosts(sent.touching)};
         checked_index(numbers.cell_count(), "cells of a part");
         return numbers;
     }
 
     void list_ghosts(const CellsFromRanks<D>& sent, GhostsOfSearch<D>& ghosts) const {
-        const LocalNumbering<D>& numbers = ghosts.numbers;
+        const GhostNumbering<D>& numbers = ghosts.numbers;
         ghosts.points.resize(numbers.point_count() - part_.points.size());
         ghosts.cells.reserve(numbers.cell_count() - part_.cells.size());
         ghosts.neighbors.reserve(numbers.cell_count() - part_.cells.size());
@@ -452,7 +452,7 @@ private:
     }
 
     void reduce(const HullEmbedding<D>& own, const PartialMesh<D>& mesh,
-                const JoinedSpans<Point<D + 1>>& points, const LocalNumbering<D>& numbers,
+                const JoinedSpans<Point<D + 1>>& points, const GhostNumbering<D>& numbers,
                 PartsEmbedding<D>& result) const {
         HullEmbedding<D>& all = result.all;
         all.all_listed = ranks_.min(own.all_listed ? 1 : 0) == 1;
@@ -480,7 +480,7 @@ private:
 
     static CrossingInHull<D> in_hull(const Crossing<D + 1>& crossing, const PartialMesh<D>& mesh,
                                      const JoinedSpans<Point<D + 1>>& points,
-                                     const LocalNumbering<D>& numbers) {
+                                     const GhostNumbering<D>& numbers) {
         CrossingInHull<D> result{crossing, {}};
         std::array<std::pair<std::uint64_t, std::array<double, 2>>, 2> cells;
         for (std::size_t k = 0; k < 2; ++k) {

@@ -74,14 +74,14 @@ private:
     }
 
     /// Ranks are in the order of cells.
-    LocalNumbering<D> numbering() const {
-        LocalNumbering<D> numbers{part_, joined(points_), numbers_of_ghosts(ghosts_), {}};
+    GhostNumbering<D> numbering() const {
+        GhostNumbering<D> numbers{part_, joined(points_), numbers_of_ghosts(ghosts_), {}};
         checked_index(numbers.cell_count(), "cells of a part");
         return numbers;
     }
 
     void number_ghosts(PartStars<D>& stars) const {
-        const LocalNumbering<D> numbers = numbering();
+        const GhostNumbering<D> numbers = numbering();
         stars.owned.resize(numbers.point_count(), 0);
         stars.outside = numbers.outside();
         for (std::size_t r = 0; r < ghosts_.size(); ++r) {
