@@ -16,7 +16,7 @@ namespace slabhull {
 class AscendingNumbers {
 public:
     explicit AscendingNumbers(Array<std::uint64_t> numbers) : numbers_{std::move(numbers)} {
-        checked_index(numbers_.size(), "numbers of ghosts");
+        checked_index(numbers_.size(), "numbers in a list");
         if (numbers_.empty()) {
             return;
         }

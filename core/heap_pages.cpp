@@ -20,13 +20,13 @@ void grow_heap_in_huge_pages([[maybe_unused]] std::size_t bytes) noexcept {
     ::mallopt(M_MMAP_THRESHOLD, largest);
     ::mallopt(M_TRIM_THRESHOLD, -1); // never
     ::mallopt(M_TOP_PAD, static_cast<int>(bytes));
-    const char* const before = static_cast<const char*>(::sbrk(0));
+    char* const before = static_cast<char*>(::sbrk(0));
     void* volatile grown = std::malloc(largest - mib); // volatile: else compilers leave both calls out
     ::mallopt(M_TOP_PAD, 16 * mib);
     char* const end = static_cast<char*>(::sbrk(0));
     if (end > before) {
         const std::uintptr_t offset = reinterpret_cast<std::uintptr_t>(before) % huge_page;
-        char* const begin = end - (end - before) + (offset > 0 ? huge_page - offset : 0);
+        char* const begin = before + (offset > 0 ? huge_page - offset : 0);
         if (begin < end) {
             ::madvise(begin, static_cast<std::size_t>(end - begin), MADV_HUGEPAGE);
         }

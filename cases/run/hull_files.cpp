@@ -91,14 +91,14 @@ private:
                 }
             }
         };
-        if (!stretches_) {
+        if (stretches_) {
+            for (const Index stretch : stretches_->using_vertices(begin, end)) {
+                stretches_->each_cell(stretch, visit);
+            }
+        } else {
             for (std::size_t c = 0; c < hull_.cells.size(); ++c) {
                 visit(c);
             }
-            return;
-        }
-        for (const Index stretch : stretches_->using_vertices(begin, end)) {
-            stretches_->each_cell(stretch, visit);
         }
     }
 
