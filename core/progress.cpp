@@ -41,7 +41,8 @@ public:
 
     void add(std::uint64_t done) {
         constexpr std::uint64_t worth_telling = 1 << 12;
-        if (tell_ && (untold_ += done) >= worth_telling) {
+        untold_ += done;
+        if (tell_ && untold_ >= worth_telling) {
             tell_(std::exchange(untold_, 0));
         }
         if (counts_ != nullptr) {
