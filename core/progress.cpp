@@ -41,9 +41,11 @@ public:
 
     void add(std::uint64_t done) {
         constexpr std::uint64_t worth_telling = 1 << 12;
-        untold_ += done;
-        if (tell_ && untold_ >= worth_telling) {
-            tell_(std::exchange(untold_, 0));
+        if (tell_) { // else many threads may be here at once
+            untold_ += done;
+            if (untold_ >= worth_telling) {
+                tell_(std::exchange(untold_, 0));
+            }
         }
         if (counts_ != nullptr) {
             counts_->done.fetch_add(done, std::memory_order_relaxed);
