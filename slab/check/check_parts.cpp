@@ -94,11 +94,8 @@ private:
         const auto counted = confirm_stars<D>(stars.mesh_with(part_));
         const StarCounts here = counted.value_or(StarCounts{});
         ManifoldCounts& counts = report_.counts;
-        counts.vertices = ranks_.sum(here.vertices);
-        counts.cells = part_.hull_cells;
-        counts.facets = counts.cells * (D + 1) / 2;
-        counts.edges = D == 2 ? counts.facets : ranks_.sum(here.link_vertices) / 2;
-        counts.euler = euler_of<D>(counts);
+        counts =
+            closed_counts<D>(part_.hull_cells, {ranks_.sum(here.vertices), ranks_.sum(here.link_vertices)});
         if (!all(counted.has_value() && counts.vertices == part_.hull_points())) {
             return false;
         }

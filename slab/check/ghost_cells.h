@@ -6,6 +6,7 @@
 #include "core/pieces.h"
 #include "slab/check/part_exchange.h"
 #include "slabhull/core/array.h"
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/index.h"
 #include "slabhull/slab/hull_part.h"
 
@@ -95,6 +96,14 @@ void each_owner(const Simplex<D>& cell, const Array<std::int32_t>& owners, const
     }
 }
 
+/// Of each point, whether its owner is this rank.
+inline Array<std::uint8_t> owned_by(const Array<std::int32_t>& owners, const Communicator& ranks) {
+    Array<std::uint8_t> owned(owners.size());
+    std::transform(owners.begin(), owners.end(), owned.begin(),
+                   [&](std::int32_t owner) -> std::uint8_t { return owner == ranks.rank() ? 1 : 0; });
+    return owned;
+}
+
 /// The numbers that points and cells of the hull have on a rank: first come the part's, then those of ghosts.
 template<int D>
 class GhostNumbering {
@@ -115,13 +124,6 @@ public:
         std::transform(numbers.begin(), numbers.end(), here.begin(),
                        [this](std::uint64_t number) { return point(number); });
         return here;
-    }
-
-    /// Needs: a point that is here.
-    Index point(std::uint64_t number) const {
-        return static_cast<Index>(part_.points_used->contains(number)
-                                      ? part_.points_used->rank(number)
-                                      : part_.points.size() + points_.place(number));
     }
 
     /// no_index for a cell that is not here.
@@ -166,6 +168,12 @@ public:
     }
 
 private:
+    Index point(std::uint64_t number) const {
+        return static_cast<Index>(part_.points_used->contains(number)
+                                      ? part_.points_used->rank(number)
+                                      : part_.points.size() + points_.place(number));
+    }
+
     static Array<std::uint64_t> not_in(const HullPart<D>& part, Array<std::uint64_t> points) {
         points.erase(std::remove_if(points.begin(), points.end(),
                                     [&](std::uint64_t each) { return part.points_used->contains(each); }),

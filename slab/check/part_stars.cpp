@@ -30,9 +30,7 @@ public:
         owners.assign(part_.points.size(), ranks_.rank());
         owners = lowest_at_points<std::int32_t>(part_, ranks_, owners);
         PartStars<D> stars;
-        stars.owned.resize(owners.size());
-        std::transform(owners.begin(), owners.end(), stars.owned.begin(),
-                       [&](std::int32_t owner) -> std::uint8_t { return owner == ranks_.rank() ? 1 : 0; });
+        stars.owned = owned_by(owners, ranks_);
         exchange(cells_of_others(owners));
         number_ghosts(stars);
         return stars;
@@ -84,6 +82,10 @@ private:
         const GhostNumbering<D> numbers = numbering();
         stars.owned.resize(numbers.point_count(), 0);
         stars.outside = numbers.outside();
+        const std::size_t count = numbers.cell_count() - part_.cells.size();
+        stars.ghosts.reserve(count);
+        stars.ghost_neighbors.reserve(count);
+        stars.ghost_region.reserve(count);
         for (std::size_t r = 0; r < ghosts_.size(); ++r) {
             const Array<Index> points = numbers.points(points_[r]);
             for (const GhostOfCheck<D>& ghost : ghosts_[r]) {

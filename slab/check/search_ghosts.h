@@ -70,8 +70,8 @@ public:
 
     GhostsOfSearch<D> run() {
         CellsFromRanks<D> sent = exchange();
-        GhostsOfSearch<D> ghosts{
-            numbering(sent), joined(std::move(sent.sizes)), {}, {}, {}, std::move(touching_), owned()};
+        GhostsOfSearch<D> ghosts{numbering(sent),      joined(std::move(sent.sizes)), {}, {}, {},
+                                 std::move(touching_), owned_by(owners_, ranks_)};
         list_ghosts(sent, ghosts);
         return ghosts;
     }
@@ -89,13 +89,6 @@ private:
                 result[v] = is_tested(c) ? ranks_.rank() : result[v];
             }
         }
-        return result;
-    }
-
-    Array<std::uint8_t> owned() const {
-        Array<std::uint8_t> result(owners_.size());
-        std::transform(owners_.begin(), owners_.end(), result.begin(),
-                       [&](std::int32_t owner) -> std::uint8_t { return owner == ranks_.rank() ? 1 : 0; });
         return result;
     }
 
@@ -117,9 +110,8 @@ private:
         }
         Array<Box<D + 1>> later;
         const std::vector<Box<D + 1>> all = ranks_.gather(own);
-        const std::vector<std::size_t> groups = ranks_.gather(groups_.own());
         for (auto r = static_cast<std::size_t>(ranks_.rank()) + 1; r < all.size(); ++r) {
-            if (groups[r] > 0) {
+            if (!all[r].empty()) {
                 later.push_back(all[r]);
             }
         }

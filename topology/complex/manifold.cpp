@@ -446,12 +446,8 @@ std::optional<ManifoldReport> confirm_manifold(std::span<const Simplex<D>> cells
         return std::nullopt;
     }
     ManifoldReport report;
-    report.counts.vertices = vertex_count;
-    report.counts.cells = cells.size();
-    report.counts.facets = cells.size() * (D + 1) / 2;
-    report.counts.edges = D == 2 ? report.counts.facets : stars->link_vertices / 2;
+    report.counts = closed_counts<D>(cells.size(), *stars);
     report.counts.components = joined_vertices<D + 1>(cells, vertex_count).count_sets();
-    report.counts.euler = euler_of<D>(report.counts);
     return report;
 }
 

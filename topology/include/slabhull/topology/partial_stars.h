@@ -3,6 +3,7 @@
 
 #include "slabhull/core/array.h"
 #include "slabhull/core/point.h"
+#include "slabhull/topology/manifold.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +48,19 @@ struct StarCounts {
     std::size_t vertices = 0;      ///< wanted ones
     std::size_t link_vertices = 0; ///< over their links
 };
+
+/// The counts of a closed D-manifold with so many cells, but for its components. `stars`: of all its
+/// vertices.
+template<int D>
+ManifoldCounts closed_counts(std::size_t cells, const StarCounts& stars) {
+    ManifoldCounts counts;
+    counts.vertices = stars.vertices;
+    counts.cells = cells;
+    counts.facets = cells * (D + 1) / 2;
+    counts.edges = D == 2 ? counts.facets : stars.link_vertices / 2;
+    counts.euler = euler_of<D>(counts);
+    return counts;
+}
 
 /// Whether the star of every wanted vertex is that of a closed oriented manifold: what confirm_manifold()
 /// proves of a whole mesh, vertex by vertex, so that parts whose wanted vertices are together all vertices
