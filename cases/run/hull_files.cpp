@@ -17,7 +17,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <unordered_map>
 
 namespace slabhull {
@@ -59,11 +58,9 @@ Column<std::int64_t> ids(const Array<std::int64_t>& values) {
 template<int D>
 class CellsOfPoints {
 public:
-    explicit CellsOfPoints(const Hull<D>& hull) : hull_{hull}, cell_(std::min(block, hull.points.size())) {
-        if (hull.points.size() > block) {
-            stretches_.emplace(hull.cells, hull.points.size());
-        }
-    }
+    explicit CellsOfPoints(const Hull<D>& hull)
+        : hull_{hull}, stretches_{hull.cells, hull.points.size(), block},
+          cell_(std::min(block, hull.points.size())) {}
 
     void copy(std::size_t begin, std::size_t end, std::int64_t* out) {
         const std::lock_guard guard{lock_};
@@ -83,27 +80,20 @@ private:
         const std::size_t begin = which * block;
         const std::size_t end = std::min(hull_.points.size(), begin + block);
         std::fill(cell_.begin(), cell_.end(), no_index);
-        const auto visit = [&](std::size_t c) {
-            for (const Index v : hull_.cells[c]) {
-                if (begin <= v && v < end) {
-                    Index& first = cell_[v - begin];
-                    first = std::min(first, static_cast<Index>(c));
+        for (const Index stretch : stretches_.using_vertices(begin, end)) {
+            stretches_.each_cell(stretch, [&](std::size_t c) {
+                for (const Index v : hull_.cells[c]) {
+                    if (begin <= v && v < end) {
+                        Index& first = cell_[v - begin];
+                        first = std::min(first, static_cast<Index>(c));
+                    }
                 }
-            }
-        };
-        if (stretches_) {
-            for (const Index stretch : stretches_->using_vertices(begin, end)) {
-                stretches_->each_cell(stretch, visit);
-            }
-        } else {
-            for (std::size_t c = 0; c < hull_.cells.size(); ++c) {
-                visit(c);
-            }
+            });
         }
     }
 
     const Hull<D>& hull_;
-    std::optional<CellStretches<D>> stretches_; ///< where points are more than one block
+    CellStretches<D> stretches_;
     std::mutex lock_;
     Array<Index> cell_; ///< of the block's points
     std::size_t block_ = static_cast<std::size_t>(-1);

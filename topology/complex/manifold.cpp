@@ -275,8 +275,8 @@ private:
 
     Survey survey_stars(bool counted) {
         constexpr std::size_t passes = 4;
-        const CellStretches<D> stretches{cells_, vertex_count_};
         const std::size_t at_once = vertices_at_once(vertex_count_, passes);
+        const CellStretches<D> stretches{cells_, vertex_count_, at_once};
         Survey survey{vertex_count_};
         for (std::size_t begin = 0; begin < vertex_count_; begin += at_once) {
             const std::size_t end = std::min(vertex_count_, begin + at_once);

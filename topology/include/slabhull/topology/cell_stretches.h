@@ -22,9 +22,13 @@ class CellStretches {
 public:
     static constexpr std::size_t length = 1 << 10;
 
-    /// Needs: vertices of cells below `vertex_count`.
-    CellStretches(std::span<const Simplex<D>> cells, std::size_t vertex_count)
+    /// `at_once`: how many vertices loops are over; where that is all, nothing is to be skipped, nor to be
+    /// found for that. Needs: vertices of cells below `vertex_count`.
+    CellStretches(std::span<const Simplex<D>> cells, std::size_t vertex_count, std::size_t at_once = 1)
         : cell_count_{cells.size()}, block_bits_{static_cast<int>(std::bit_width(vertex_count / blocks))} {
+        if (at_once >= vertex_count) {
+            return;
+        }
         used_.resize((cells.size() + length - 1) / length);
         parallel_for(cells.size(), length, [&](std::size_t begin, std::size_t end) {
             Blocks& used = used_[begin / length];
@@ -44,8 +48,8 @@ public:
             wanted.set(block);
         }
         std::vector<Index> found;
-        for (std::size_t s = 0; s < used_.size(); ++s) {
-            if ((used_[s] & wanted).any()) {
+        for (std::size_t s = 0; s * length < cell_count_; ++s) {
+            if (used_.empty() || (used_[s] & wanted).any()) {
                 found.push_back(static_cast<Index>(s));
             }
         }
