@@ -6,6 +6,7 @@
 #include "cases/run/mesh_soup.h"
 #include "slabhull/geometry/embedding.h"
 #include "slabhull/io/files.h"
+#include "slabhull/slab/cap_cells.h"
 
 #include <utility>
 
@@ -53,6 +54,9 @@ Domain<D> initial_domain(const Case& the_case, const IdCounter& ids, const Liste
         Domain<D> domain =
             domain_of_soup<D>(soup, {file->regions, patches_with_motions(the_case)}, ids, listener);
         clock.book("initial boundary");
+        if (ranks != nullptr) {
+            leave_cells_on_first(domain.mesh, *ranks);
+        }
         return domain;
     }
     CapOptions options = cap_options(the_case);

@@ -232,7 +232,8 @@ private:
             prepare(boundary_of(mesh), mesh, case_.start);
         };
         Domain<D> domain = initial_domain<D>(case_, {}, listener_, clock, on_boundary, ranks_);
-        initial_ = report_of_initial(domain.mesh, clock);
+        const std::size_t cells = domain.mesh.cells.size();
+        initial_ = report_of_initial(domain.mesh, ranks_ != nullptr ? ranks_->sum(cells) : cells, clock);
         start(march_from<D>(std::move(domain), case_.start));
     }
 
@@ -253,6 +254,7 @@ private:
                 path.string()));
         }
         if (!first()) {
+            leave_cells_on_first(checkpoint.state.cap, *ranks_);
             start(std::move(checkpoint.state));
             return true;
         }
@@ -277,7 +279,7 @@ private:
         march_.emplace(std::move(state), std::move(settings_->slab));
     }
 
-    /// Gives each rank a range of the cap's cells, which the first rank has.
+    /// Gives each rank a range of the cap's cells.
     void divide_cells(MarchState<D>& state) const {
         CapCells<D> cells = take_cells(state.cap, *ranks_);
         const HullRange here = range_of_rank(cells.all, *ranks_);
@@ -772,9 +774,9 @@ private:
         slab.cap->cells.swap(cells);
     }
 
-    static Json report_of_initial(const SpatialMesh<D>& cap, const StageClock& clock) {
+    static Json report_of_initial(const SpatialMesh<D>& cap, std::size_t cells, const StageClock& clock) {
         return {{"points", cap.points.size()},
-                {"cells", cap.cells.size()},
+                {"cells", cells},
                 {"boundary_facets", cap.boundary_facets.size()},
                 {"seconds", seconds_as_json(clock)}};
     }

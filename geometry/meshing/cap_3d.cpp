@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/meshing/cap_blocks.h"
+#include "geometry/meshing/cap_in_ranks.h"
 #include "geometry/meshing/cap_limits.h"
 #include "geometry/meshing/solid_mesher.h"
 
@@ -77,9 +78,18 @@ CapMesh<3> mesh_cap<3>(const Boundary<3>& boundary, const Surface<3>& surface, c
     if (options.ranks == nullptr) {
         return mesh();
     }
-    return together(*options.ranks, [&] {
-        return with_shared_points(
-            options.ranks->first() ? mesh() : mesh_in_blocks(boundary, surface, options), *options.ranks);
+    Communicator& ranks = *options.ranks;
+    if (options.blocks == 0) {
+        throw UsageError{"ranks mesh a cap in a given number of blocks, as their memory may differ"};
+    }
+    return together(ranks, [&] {
+        if (options.blocks == 1) {
+            return with_shared_points(ranks.first() ? mesh() : CapMesh<3>{}, ranks);
+        }
+        if (ranks.first()) {
+            require_meshable(surface, options);
+        }
+        return mesh_in_ranks(boundary, surface, options);
     });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/geometry/mesh_order.h"
 
+#include "geometry/meshing/curve_places.h"
 #include "geometry/meshing/z_order.h"
 
 #include "slabhull/core/parallel.h"
@@ -85,15 +86,6 @@ Array<Index> sorted_along_curve(std::size_t count, const Place& place) {
     return std::move(stretches.members);
 }
 
-/// From old numbers to new ones.
-Array<Index> inverse(const Array<Index>& order) {
-    Array<Index> fresh(order.size());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        fresh[order[k]] = static_cast<Index>(k);
-    }
-    return fresh;
-}
-
 template<class T>
 void permute(Array<T>& values, const Array<Index>& order) {
     Array<T> result(values.size());
@@ -116,41 +108,57 @@ void renumber(Array<std::array<Index, N>>& lists, const Array<Index>& fresh) {
     });
 }
 
+} // namespace
+
+Array<Index> inverse_order(const Array<Index>& order) {
+    Array<Index> fresh(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        fresh[order[k]] = static_cast<Index>(k);
+    }
+    return fresh;
+}
+
 template<int D>
-Point<D> centre(const CapMesh<D>& mesh, std::size_t cell) {
+Array<Index> point_order(std::span<const Point<D>> points, std::size_t fixed) {
+    const ZOrder<D> curve{points};
+    Array<Index> order(points.size());
+    for (std::size_t v = 0; v < fixed; ++v) {
+        order[v] = static_cast<Index>(v);
+    }
+    const Array<Index> free =
+        sorted_along_curve(points.size() - fixed, [&](std::size_t v) { return curve(points[fixed + v]); });
+    std::transform(free.begin(), free.end(), order.begin() + static_cast<std::ptrdiff_t>(fixed),
+                   [=](Index v) { return static_cast<Index>(fixed + v); });
+    return order;
+}
+
+template<int D>
+Point<D> centre_of_cell(const Simplex<D>& cell, std::span<const Point<D>> points) {
     Point<D> sum{};
-    for (const Index v : mesh.cells[cell]) {
+    for (const Index v : cell) {
         for (std::size_t k = 0; k < D; ++k) {
-            sum[k] += mesh.points[v][k] / (D + 1);
+            sum[k] += points[v][k] / (D + 1);
         }
     }
     return sum;
 }
-
-} // namespace
 
 template<int D>
 void order_along_curve(CapMesh<D>& mesh, std::size_t fixed_points) {
     if (mesh.points.empty()) {
         return;
     }
-    const ZOrder<D> curve{mesh.points};
-    Array<Index> order(mesh.points.size());
-    for (std::size_t v = 0; v < fixed_points; ++v) {
-        order[v] = static_cast<Index>(v);
-    }
-    const Array<Index> free = sorted_along_curve(mesh.points.size() - fixed_points, [&](std::size_t v) {
-        return curve(mesh.points[fixed_points + v]);
-    });
-    std::transform(free.begin(), free.end(), order.begin() + static_cast<std::ptrdiff_t>(fixed_points),
-                   [=](Index v) { return static_cast<Index>(fixed_points + v); });
+    Array<Index> order = point_order<D>(mesh.points, fixed_points);
     permute(mesh.points, order);
-    renumber(mesh.cells, inverse(order));
+    renumber(mesh.cells, inverse_order(order));
 
-    order = sorted_along_curve(mesh.cells.size(), [&](std::size_t c) { return curve(centre<D>(mesh, c)); });
+    const ZOrder<D> curve{mesh.points};
+    order = sorted_along_curve(mesh.cells.size(), [&](std::size_t c) {
+        return curve(centre_of_cell<D>(mesh.cells[c], mesh.points));
+    });
     permute(mesh.cells, order);
     permute(mesh.neighbors, order);
-    renumber(mesh.neighbors, inverse(order));
+    renumber(mesh.neighbors, inverse_order(order));
 }
 
 template<int D>
@@ -162,6 +170,10 @@ Array<Index> curve_order(std::span<const Point<D>> points) {
     return sorted_along_curve(points.size(), [&](std::size_t v) { return curve(points[v]); });
 }
 
+template Array<Index> point_order<2>(std::span<const Point<2>>, std::size_t);
+template Array<Index> point_order<3>(std::span<const Point<3>>, std::size_t);
+template Point<2> centre_of_cell<2>(const Simplex<2>&, std::span<const Point<2>>);
+template Point<3> centre_of_cell<3>(const Simplex<3>&, std::span<const Point<3>>);
 template void order_along_curve<2>(CapMesh<2>&, std::size_t);
 template void order_along_curve<3>(CapMesh<3>&, std::size_t);
 template Array<Index> curve_order<2>(std::span<const Point<2>>);

@@ -23,13 +23,19 @@ constexpr int steps_per_vertex = 12;
 constexpr double first_step = 0.2;
 constexpr double last_step = 0.02;
 
+/// Smallest angle of a cell; negative if it is not positively oriented.
+double angle(const CapMesh<3>& mesh, Index cell) {
+    const auto corners = corners_of<3, 3>(mesh.cells[cell], mesh.points);
+    return signed_measure<3>(corners) > 0 ? dihedral_angles<3, 3>(corners).smallest : -1;
+}
+
 class SliverRepair {
 public:
     SliverRepair(CapMesh<3>& mesh, std::size_t fixed_points, double wanted)
         : mesh_{mesh}, fixed_{fixed_points}, wanted_{wanted} {}
 
     void run() {
-        const std::vector<Index> slivers = find();
+        const std::vector<Index> slivers = find_slivers(mesh_, wanted_);
         for (int round = 0; round < rounds; ++round) {
             for (const Index cell : slivers) {
                 repair(cell);
@@ -38,31 +44,12 @@ public:
     }
 
 private:
-    std::vector<Index> find() const {
-        constexpr std::size_t grain = 1 << 14;
-        return parallel_gather<Index>(
-            mesh_.cells.size(), grain,
-            [this](std::size_t begin, std::size_t end, std::vector<Index>& slivers) {
-                for (std::size_t cell = begin; cell < end; ++cell) {
-                    if (angle(static_cast<Index>(cell)) < wanted_) {
-                        slivers.push_back(static_cast<Index>(cell));
-                    }
-                }
-            });
-    }
-
     void repair(Index cell) {
         for (const Index v : mesh_.cells[cell]) {
-            if (v >= fixed_ && angle(cell) < wanted_) {
+            if (v >= fixed_ && angle(mesh_, cell) < wanted_) {
                 improve(v, cell);
             }
         }
-    }
-
-    /// Smallest angle of a cell; negative if it is not positively oriented.
-    double angle(Index cell) const {
-        const auto corners = corners_of<3, 3>(mesh_.cells[cell], mesh_.points);
-        return signed_measure<3>(corners) > 0 ? dihedral_angles<3, 3>(corners).smallest : -1;
     }
 
     /// Gathers the cells around a vertex, starting at one of them.
@@ -84,7 +71,7 @@ private:
     double smallest_around(double enough) const {
         double smallest = 180;
         for (const Index cell : star_) {
-            smallest = std::min(smallest, angle(cell));
+            smallest = std::min(smallest, angle(mesh_, cell));
             if (smallest < enough) {
                 break;
             }
@@ -144,6 +131,18 @@ private:
 };
 
 } // namespace
+
+std::vector<Index> find_slivers(const CapMesh<3>& mesh, double wanted) {
+    constexpr std::size_t grain = 1 << 14;
+    return parallel_gather<Index>(mesh.cells.size(), grain,
+                                  [&](std::size_t begin, std::size_t end, std::vector<Index>& slivers) {
+                                      for (std::size_t cell = begin; cell < end; ++cell) {
+                                          if (angle(mesh, static_cast<Index>(cell)) < wanted) {
+                                              slivers.push_back(static_cast<Index>(cell));
+                                          }
+                                      }
+                                  });
+}
 
 void repair_slivers(CapMesh<3>& mesh, std::size_t fixed_points, double wanted) {
     SliverRepair{mesh, fixed_points, wanted}.run();

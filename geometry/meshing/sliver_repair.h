@@ -4,6 +4,7 @@
 #include "slabhull/geometry/cap_mesher.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace slabhull {
 
@@ -12,5 +13,8 @@ namespace slabhull {
 /// positive (exactly). Cost: a pass over all cells, and some milliseconds for each cell below `wanted`. Does
 /// not depend on the number of threads.
 void repair_slivers(CapMesh<3>& mesh, std::size_t fixed_points, double wanted);
+
+/// The cells whose smallest dihedral angle is below `wanted` degrees, ascending.
+std::vector<Index> find_slivers(const CapMesh<3>& mesh, double wanted);
 
 } // namespace slabhull

@@ -50,6 +50,12 @@ bool has_mesher(SolidMesher mesher) {
     return mesher == SolidMesher::hxt ? has_hxt() : has_tetgen();
 }
 
+CapMesh<3> fill_solid(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                      const CapOptions& options) {
+    return options.mesher == SolidMesher::hxt ? fill_with_hxt(boundary, surface, size, options)
+                                              : fill_with_tetgen(boundary, surface, size, options);
+}
+
 CapMesh<3> fill_in_child(const Surface<3>& surface, const RunMesher& run,
                          const std::function<std::string(const MesherHeading&)>& words) {
     CapMesh<3> mesh;

@@ -20,6 +20,10 @@ CapMesh<3> fill_with_tetgen(const Boundary<3>& boundary, const Surface<3>& surfa
 CapMesh<3> fill_with_hxt(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
                          const CapOptions& options);
 
+/// With the mesher that is chosen.
+CapMesh<3> fill_solid(const Boundary<3>& boundary, const Surface<3>& surface, const SizeField<3>& size,
+                      const CapOptions& options);
+
 bool has_tetgen();
 bool has_hxt();
 

@@ -28,18 +28,20 @@ Array<Row> redistributed_rows(const Array<Row>& rows, const HullRange& here, con
 } // namespace
 
 template<int D>
+void leave_cells_on_first(SpatialMesh<D>& cap, const Communicator& ranks) {
+    if (!ranks.first()) {
+        Array<Simplex<D>>{}.swap(cap.cells); // assigning {} would keep the memory
+        Array<Neighbors<D>>{}.swap(cap.neighbors);
+    }
+}
+
+template<int D>
 CapCells<D> take_cells(SpatialMesh<D>& cap, Communicator& ranks) {
     CapCells<D> taken;
-    taken.all = ranks.gather(cap.cells.size()).front();
-    if (ranks.first()) {
-        taken.range = {0, taken.all};
-        taken.cells.swap(cap.cells);
-        taken.neighbors.swap(cap.neighbors);
-    } else {
-        taken.range = {taken.all, 0};
-    }
-    Array<Simplex<D>>{}.swap(cap.cells); // assigning {} would keep the memory
-    Array<Neighbors<D>>{}.swap(cap.neighbors);
+    taken.range = {ranks.sum_before(cap.cells.size()), cap.cells.size()};
+    taken.all = ranks.sum(cap.cells.size());
+    taken.cells.swap(cap.cells);
+    taken.neighbors.swap(cap.neighbors);
     return taken;
 }
 
@@ -85,6 +87,8 @@ Array<Simplex<D>> all_cells_on_first(const CapCells<D>& cells, Communicator& ran
 
 template Array<Simplex<2>> all_cells_on_first<2>(const CapCells<2>&, Communicator&);
 template Array<Simplex<3>> all_cells_on_first<3>(const CapCells<3>&, Communicator&);
+template void leave_cells_on_first<2>(SpatialMesh<2>&, const Communicator&);
+template void leave_cells_on_first<3>(SpatialMesh<3>&, const Communicator&);
 template CapCells<2> take_cells<2>(SpatialMesh<2>&, Communicator&);
 template CapCells<3> take_cells<3>(SpatialMesh<3>&, Communicator&);
 template CapCells<2> redistributed<2>(CapCells<2>&&, const HullRange&, Communicator&);

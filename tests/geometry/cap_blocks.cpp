@@ -6,6 +6,7 @@
 #include "geometry/meshing/surface_division.h"
 #include "rooms.h"
 
+#include "slabhull/core/communicator.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/geometry/embedding.h"
@@ -18,6 +19,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
+#include <vector>
 
 using namespace slabhull;
 using namespace slabhull::specimens;
@@ -218,6 +221,81 @@ TEST_CASE("blocks give the same bytes on any number of threads", "[blocks]") {
         }
         set_thread_count(0);
     }
+}
+
+/// A mesh in ranks, put together again; all ranks must have the same points.
+CapMesh<3> meshed_in_ranks(const Surface<3>& surface, const CapOptions& options, int ranks,
+                           std::vector<std::size_t>* counts = nullptr) {
+    std::vector<CapMesh<3>> parts(static_cast<std::size_t>(ranks));
+    run_team(ranks, [&](Communicator& team) {
+        CapOptions in_team = options;
+        in_team.ranks = &team;
+        parts[static_cast<std::size_t>(team.rank())] = mesh_cap(surface, in_team);
+    });
+    CapMesh<3> whole;
+    whole.points = parts.front().points;
+    whole.blocks = parts.front().blocks;
+    for (const CapMesh<3>& part : parts) {
+        CHECK(part.points == whole.points);
+        CHECK(part.blocks == whole.blocks);
+        whole.cells.insert(whole.cells.end(), part.cells.begin(), part.cells.end());
+        whole.neighbors.insert(whole.neighbors.end(), part.neighbors.begin(), part.neighbors.end());
+        if (counts != nullptr) {
+            counts->push_back(part.cells.size());
+        }
+    }
+    return whole;
+}
+
+void require_same(const CapMesh<3>& one, const CapMesh<3>& other) {
+    CHECK(one.blocks == other.blocks);
+    CHECK(one.points == other.points);
+    CHECK(one.cells == other.cells);
+    CHECK(one.neighbors == other.neighbors);
+}
+
+TEST_CASE("ranks together mesh a cap as one process does in as many blocks", "[blocks][ranks]") {
+    const Surface<3> surface = sphere_in_cube(4);
+    for (const auto& [blocks, ranks] : {std::pair{2, 2}, {3, 2}, {7, 3}, {2, 5}, {1, 3}}) {
+        for (const bool curve : {true, false}) {
+            INFO(blocks << " blocks in " << ranks << " ranks" << (curve ? ", along the curve" : ""));
+            CapOptions options = in_blocks(blocks);
+            options.curve_order = curve;
+            require_same(meshed_in_ranks(surface, options, ranks), mesh_cap(surface, options));
+        }
+    }
+}
+
+TEST_CASE("ranks repair the slivers that one process repairs", "[blocks][ranks][sliver]") {
+    const Surface<3> surface = sphere_in_cube(4);
+    CapOptions options = in_blocks(4);
+    options.curve_order = false;
+    options.min_dihedral = 0; // none
+    const CapMesh<3> left = mesh_cap(surface, options);
+    options.min_dihedral = 20;
+    const CapMesh<3> repaired = mesh_cap(surface, options);
+    REQUIRE(repaired.points != left.points);
+    require_same(meshed_in_ranks(surface, options, 3), repaired);
+}
+
+TEST_CASE("ranks get about equally many cells of a cap, and all of one block are the first's",
+          "[blocks][ranks]") {
+    const Surface<3> surface = sphere_in_cube(5);
+    std::vector<std::size_t> counts;
+    const auto all = static_cast<double>(meshed_in_ranks(surface, in_blocks(2), 4, &counts).cells.size());
+    for (const std::size_t count : counts) {
+        CHECK(static_cast<double>(count) == Approx(all / 4).epsilon(0.01));
+    }
+    counts.clear();
+    meshed_in_ranks(surface, in_blocks(1), 3, &counts);
+    CHECK(counts.front() > 0);
+    CHECK(counts == std::vector<std::size_t>{counts.front(), 0, 0});
+}
+
+TEST_CASE("ranks mesh small domains, too, and want a number of blocks", "[blocks][ranks]") {
+    const Surface<3> surface = cube(1, 1); // 12 facets
+    require_same(meshed_in_ranks(surface, in_blocks(64), 5), mesh_cap(surface, in_blocks(64)));
+    CHECK_THROWS_AS(meshed_in_ranks(surface, in_blocks(0), 2), UsageError);
 }
 
 TEST_CASE("a domain too small to be cut is meshed whole", "[blocks]") {

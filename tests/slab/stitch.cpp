@@ -151,6 +151,8 @@ HullPart<D> part_by_rank(const SlabParts<D>& parts, const SideOptions& side, Com
                          HullOrder<D>& order) {
     SpatialMesh<D> initial = parts.initial;
     SpatialMesh<D> terminating = parts.terminating;
+    leave_cells_on_first(initial, team);
+    leave_cells_on_first(terminating, team);
     CapCells<D> first = take_cells(initial, team);
     CapCells<D> last = take_cells(terminating, team);
     CapToStitch<D> begin{initial};

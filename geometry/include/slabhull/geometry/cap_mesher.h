@@ -31,11 +31,13 @@ struct CapOptions {
     bool curve_order = true;
     /// Ranks that mesh the blocks together, each those whose number is its own modulo their count; nullptr:
     /// this process alone. All of them call mesh_cap(), with the same arguments and `blocks` given (D = 3).
-    /// All get the points; the cells stay on the first rank, which joins the blocks.
+    /// All get the points, and each a range of the cells: see CapMesh.
     Communicator* ranks = nullptr;
 };
 
-/// A mesh of the domain inside a surface.
+/// A mesh of the domain inside a surface. In ranks, each has all points, and consecutive cells, those of a
+/// lower rank before: of a mesh in several blocks about equally many, else the first rank has all. Numbers
+/// are those of the whole mesh.
 template<int D>
 struct CapMesh {
     Array<Point<D>> points; ///< the surface's first, in order and bit for bit, then new interior ones

@@ -21,8 +21,11 @@ struct CapCells {
     Array<Neighbors<D>> neighbors;
 };
 
-/// Takes the cells out of a cap, of which the first rank has all: those that others have are released. The
-/// first rank has all of the result, too. Collective.
+/// Leaves the cells of a cap that every rank has whole on the first rank alone.
+template<int D>
+void leave_cells_on_first(SpatialMesh<D>& cap, const Communicator& ranks);
+
+/// Takes the cells out of a cap, of which each rank has some: those of a lower rank come before. Collective.
 template<int D>
 CapCells<D> take_cells(SpatialMesh<D>& cap, Communicator& ranks);
 
