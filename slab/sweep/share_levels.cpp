@@ -70,14 +70,15 @@ void share_levels(Sweep<D>& sweep, const HullRange& wanted, Communicator& ranks)
     }
     keep_levels(sweep, wanted);
     const std::vector<Array<Point<D>>> from = ranks.all_to_all(to);
-    std::vector<std::size_t> taken(from.size()); // of what each has sent
+    std::vector<const Point<D>*> next; // of what each rank has sent
+    for (const Array<Point<D>>& list : from) {
+        next.push_back(list.data());
+    }
     for (std::size_t level = 0; level < sender.size(); ++level) {
         if (held[here][level] == Held::wanted) {
-            std::size_t& begin = taken[sender[level]];
-            const auto first = from[sender[level]].begin() + static_cast<std::ptrdiff_t>(begin);
-            begin += sweep.boundary.vertex_count();
-            sweep.positions[level].assign(first,
-                                          from[sender[level]].begin() + static_cast<std::ptrdiff_t>(begin));
+            const Point<D>*& first = next.at(sender[level]);
+            sweep.positions[level].assign(first, first + sweep.boundary.vertex_count());
+            first += sweep.boundary.vertex_count();
         }
     }
 }

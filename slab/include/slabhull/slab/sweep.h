@@ -43,6 +43,7 @@ struct Sweep {
         projected; ///< how far projection moved each patch, over all levels
 
     std::size_t layers() const { return times.size() - 1; }
+    /// Whether a level is here.
     bool has(std::size_t level) const { return !positions[level].empty(); }
     /// The places on a level. Throws std::logic_error if it is not here.
     const Array<Point<D>>& places(std::size_t level) const {
@@ -51,6 +52,7 @@ struct Sweep {
         }
         return positions[level];
     }
+    /// Gives a level up, and its memory.
     void release(std::size_t level) {
         Array<Point<D>>{}.swap(positions[level]); // assigning {} would keep the memory
     }
