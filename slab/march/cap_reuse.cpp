@@ -29,32 +29,42 @@ CapMesh<D> renumbered(const SpatialMesh<D>& cap, std::span<const Point<D>> point
     return mesh;
 }
 
-/// Moves the cap from level to level: small steps keep better cells under large turns.
+/// What a cap that was moved to the last level is good for.
 template<int D>
-MovedCap<D> moved_by_levels(const SpatialMesh<D>& initial, const Sweep<D>& sweep) {
-    MovedCap<D> moved{initial.points, 0, true, 0};
-    for (std::size_t level = 1; level <= sweep.layers() && moved.sound; ++level) {
-        moved =
-            move_cap<D>(moved.points, initial.cells, sweep.boundary.mesh_vertices(), sweep.positions[level]);
+ReusedCap<D> judged(const MovedCap<D>& moved, const SpatialMesh<D>& initial, const Sweep<D>& sweep,
+                    double angle) {
+    ReusedCap<D> reused;
+    reused.smallest_angle = moved.sound ? moved.smallest_angle : 0;
+    if (moved.sound && moved.smallest_angle >= angle) {
+        reused.mesh = renumbered<D>(initial, moved.points,
+                                    swept_first(initial.points.size(), sweep.boundary.mesh_vertices()));
     }
-    return moved;
+    return reused;
 }
 
 } // namespace
 
 template<int D>
-ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle) {
-    MovedCap<D> moved =
-        move_cap<D>(initial.points, initial.cells, sweep.boundary.mesh_vertices(), sweep.positions.back());
-    const auto serves = [&] { return moved.sound && moved.smallest_angle >= angle; };
-    if (!serves() && sweep.layers() > 1) {
-        moved = moved_by_levels<D>(initial, sweep);
+ReusedCap<D> reuse_in_one_step(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle) {
+    return judged<D>(
+        move_cap<D>(initial.points, initial.cells, sweep.boundary.mesh_vertices(), sweep.positions.back()),
+        initial, sweep, angle);
+}
+
+template<int D>
+ReusedCap<D> reuse_by_levels(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle) {
+    MovedCap<D> moved{initial.points, 0, true, 0};
+    for (std::size_t level = 1; level <= sweep.layers() && moved.sound; ++level) {
+        moved = move_cap<D>(moved.points, initial.cells, sweep.boundary.mesh_vertices(), sweep.places(level));
     }
-    ReusedCap<D> reused;
-    reused.smallest_angle = moved.sound ? moved.smallest_angle : 0;
-    if (serves()) {
-        reused.mesh = renumbered<D>(initial, moved.points,
-                                    swept_first(initial.points.size(), sweep.boundary.mesh_vertices()));
+    return judged<D>(moved, initial, sweep, angle);
+}
+
+template<int D>
+ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle) {
+    ReusedCap<D> reused = reuse_in_one_step<D>(initial, sweep, angle);
+    if (!reused.good() && sweep.layers() > 1) {
+        reused = reuse_by_levels<D>(initial, sweep, angle);
     }
     return reused;
 }
@@ -86,6 +96,10 @@ template Array<TrackId> tracks_throughout<2>(const SpatialMesh<2>&);
 template Array<TrackId> tracks_throughout<3>(const SpatialMesh<3>&);
 template Array<TrackId> tracks_moved<2>(std::span<const TrackId>, const Sweep<2>&);
 template Array<TrackId> tracks_moved<3>(std::span<const TrackId>, const Sweep<3>&);
+template ReusedCap<2> reuse_in_one_step<2>(const SpatialMesh<2>&, const Sweep<2>&, double);
+template ReusedCap<3> reuse_in_one_step<3>(const SpatialMesh<3>&, const Sweep<3>&, double);
+template ReusedCap<2> reuse_by_levels<2>(const SpatialMesh<2>&, const Sweep<2>&, double);
+template ReusedCap<3> reuse_by_levels<3>(const SpatialMesh<3>&, const Sweep<3>&, double);
 template ReusedCap<2> reuse_cap<2>(const SpatialMesh<2>&, const Sweep<2>&, double);
 template ReusedCap<3> reuse_cap<3>(const SpatialMesh<3>&, const Sweep<3>&, double);
 

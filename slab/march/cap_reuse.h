@@ -15,9 +15,17 @@ struct ReusedCap {
     bool good() const { return !mesh.points.empty(); }
 };
 
-/// `angle` is the required smallest angle. The cap is moved in one step or, if that leaves a smaller angle,
-/// more exactly and from level to level. Cost: that of move_cap(), some two or three times that per layer in
-/// the second case.
+/// The cap moved in one step, to the last level. `angle` is the required smallest angle. Cost: that of
+/// move_cap().
+template<int D>
+ReusedCap<D> reuse_in_one_step(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle);
+
+/// The same, more exactly, from level to level: small steps keep better cells under large turns. Needs: all
+/// levels. Cost: two or three times that of move_cap() per layer.
+template<int D>
+ReusedCap<D> reuse_by_levels(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle);
+
+/// The first or, if that leaves a smaller angle and there are levels between, the second.
 template<int D>
 ReusedCap<D> reuse_cap(const SpatialMesh<D>& initial, const Sweep<D>& sweep, double angle);
 

@@ -5,6 +5,7 @@
 #include "slab/adapt/adapt_cap.h"
 #include "slab/march/cap_reuse.h"
 #include "slab/stitch/layered_side.h"
+#include "slab/sweep/share_levels.h"
 #include "slabhull/core/communicator.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/progress.h"
@@ -71,18 +72,27 @@ NewCap<D> make_adapted_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const
             std::move(adapted.side)};
 }
 
-/// The initial cap moved along: in ranks by the first, which is given all its cells for that, and keeps those
-/// of the moved cap.
+/// As reuse_cap(), in ranks: by the first, which is given all the cap's cells for that, and all levels if one
+/// step does not serve. It keeps the cells of the moved cap.
 template<int D>
-ReusedCap<D> reuse_in_ranks(CapToStitch<D>& initial, const Sweep<D>& sweep, double angle,
-                            Communicator& ranks) {
+ReusedCap<D> reuse_in_ranks(CapToStitch<D>& initial, Sweep<D>& sweep, double angle, Communicator& ranks) {
     const std::size_t all = initial.cells().all;
     const HullRange wanted = ranks.first() ? HullRange{0, all} : HullRange{all, 0};
     initial.cells() = redistributed(std::move(initial.cells()), wanted, ranks);
-    ReusedCap<D> reused = together(ranks, [&] {
+    const auto by_first = [&](const auto& reuse) {
         const typename CapToStitch<D>::WithCells whole{initial};
-        return ranks.first() ? reuse_cap<D>(initial.mesh(), sweep, angle) : ReusedCap<D>{};
-    });
+        return ranks.first() ? reuse(initial.mesh(), sweep, angle) : ReusedCap<D>{};
+    };
+    ReusedCap<D> reused = together(ranks, [&] { return by_first(reuse_in_one_step<D>); });
+    if (ranks.max(reused.good() ? 1 : 0) == 0 && sweep.layers() > 1) {
+        reused = together(ranks, [&] {
+            const HullRange kept = levels_of_rank(sweep.layers(), ranks);
+            share_levels(sweep, ranks.first() ? levels_of({0, sweep.layers()}) : kept, ranks);
+            ReusedCap<D> by_levels = by_first(reuse_by_levels<D>);
+            keep_levels(sweep, kept);
+            return by_levels;
+        });
+    }
     reused.smallest_angle = ranks.gather(reused.smallest_angle).front();
     reused.mesh = with_shared_points(std::move(reused.mesh), ranks);
     return reused;
@@ -90,8 +100,8 @@ ReusedCap<D> reuse_in_ranks(CapToStitch<D>& initial, const Sweep<D>& sweep, doub
 
 /// The initial cap moved along, if that is good enough.
 template<int D>
-std::optional<CapMesh<D>> moved_cap(CapToStitch<D>& initial, const Sweep<D>& sweep,
-                                    const SlabSettings<D>& settings, Slab<D>& slab, StageClock& clock) {
+std::optional<CapMesh<D>> moved_cap(CapToStitch<D>& initial, Sweep<D>& sweep, const SlabSettings<D>& settings,
+                                    Slab<D>& slab, StageClock& clock) {
     enter_stage(cap_meshing_stage);
     ReusedCap<D> reused = settings.ranks != nullptr
                               ? reuse_in_ranks<D>(initial, sweep, settings.reuse_angle, *settings.ranks)
@@ -110,8 +120,8 @@ CapMesh<D> meshed_cap(const Sweep<D>& sweep, const CapOptions& options, StageClo
 
 /// The terminating cap: moved where that is wanted and good enough, else meshed.
 template<int D>
-CapMesh<D> make_cap(CapToStitch<D>& initial, const Sweep<D>& sweep, const SlabSettings<D>& settings,
-                    Slab<D>& slab, StageClock& clock) {
+CapMesh<D> make_cap(CapToStitch<D>& initial, Sweep<D>& sweep, const SlabSettings<D>& settings, Slab<D>& slab,
+                    StageClock& clock) {
     if (settings.reuse == CapReuse::move) {
         if (std::optional<CapMesh<D>> moved = moved_cap<D>(initial, sweep, settings, slab, clock)) {
             return *std::move(moved);
@@ -289,7 +299,7 @@ std::pair<Sweep<D>, NewCap<D>> sweep_and_cap(CapToStitch<D>& initial, const Boun
 
 /// Stitches this rank's part.
 template<int D>
-void stitch_in_ranks(CapToStitch<D>& initial, const Sweep<D>& sweep, SpatialMesh<D>&& terminating,
+void stitch_in_ranks(CapToStitch<D>& initial, Sweep<D>& sweep, SpatialMesh<D>&& terminating,
                      const SlabSettings<D>& settings, IdCounter& side_ids, Slab<D>& slab) {
     CapCells<D> cells = take_cells(terminating, *settings.ranks);
     CapToStitch<D> last{terminating};
@@ -301,8 +311,8 @@ void stitch_in_ranks(CapToStitch<D>& initial, const Sweep<D>& sweep, SpatialMesh
 
 /// Stitches a slab whose boundary keeps its connectivity.
 template<int D>
-void stitch_slab(CapToStitch<D>& initial, const Sweep<D>& sweep, NewCap<D>&& cap,
-                 const SlabSettings<D>& settings, IdCounter& ids, Slab<D>& slab) {
+void stitch_slab(CapToStitch<D>& initial, Sweep<D>& sweep, NewCap<D>&& cap, const SlabSettings<D>& settings,
+                 IdCounter& ids, Slab<D>& slab) {
     IdCounter side_ids{ids.take(side_vertex_count<D>(sweep, settings.side.split))};
     SpatialMesh<D> terminating = terminating_cap<D>(sweep.boundary, std::move(cap.mesh), ids);
     if (settings.reuse == CapReuse::move) {

@@ -38,7 +38,7 @@ public:
     }
 
     Point<D + 1> on_level(std::size_t level, Index v) const {
-        return at_time<D>(sweep_.positions[level][v], sweep_.times[level]);
+        return at_time<D>(sweep_.places(level)[v], sweep_.times[level]);
     }
     /// Of a quadrilateral that has a centre.
     Point<D + 1> face_centre(std::size_t layer, Index quad) const {
@@ -68,9 +68,10 @@ private:
     Point<D + 1> mean_of_columns(std::size_t layer, const std::array<Index, N>& vertices) const {
         Point<D> sum{};
         for (const std::size_t level : {layer, layer + 1}) {
+            const Array<Point<D>>& places = sweep_.places(level);
             for (const Index v : vertices) {
                 for (std::size_t k = 0; k < D; ++k) {
-                    sum[k] += sweep_.positions[level][v][k];
+                    sum[k] += places[v][k];
                 }
             }
         }

@@ -6,6 +6,7 @@
 #include "slab/stitch/prism_choice.h"
 #include "slab/stitch/prism_graph.h"
 #include "slab/stitch/side_points.h"
+#include "slab/sweep/share_levels.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/memory.h"
 #include "slabhull/core/parallel.h"
@@ -68,9 +69,16 @@ public:
         return hull;
     }
 
-    HullPart<D> part(Communicator& ranks, HullOrder<D>& order) {
+    /// Finds this rank's part. Returns the levels that it needs.
+    HullRange begin_part(const Communicator& ranks) {
         describe(initial_.cells().all, terminating_.cells().all);
         begin(static_cast<std::size_t>(ranks.rank()), static_cast<std::size_t>(ranks.size()));
+        const LayerRange layers = layers_to_choose(prisms_here());
+        return levels_of({layers.first, layers.end - layers.first});
+    }
+
+    /// The part, after begin_part(), when the sweep has its levels.
+    HullPart<D> part(Communicator& ranks, HullOrder<D>& order) {
         const std::array boundary{place_cells_from_ranks(initial_, 0, 0, ranks),
                                   place_cells_from_ranks(terminating_, order_.terminating_begin(),
                                                          static_cast<Index>(vertices_.end()), ranks)};
@@ -195,25 +203,30 @@ private:
     }
 
     void place_side_cells() {
-        const HullRange here = held(order_.initial_cells, order_.side_cells);
-        std::size_t first = 0; // of the prisms with cells here
-        std::size_t end = 0;
-        if (here.count > 0) {
-            first = (here.first - order_.initial_cells) / order_.cells_per_prism;
-            end = (here.end() - order_.initial_cells - 1) / order_.cells_per_prism + 1;
-        }
-        choice_ = choose_templates<D>(options_, graph_, sweep_, points_, layers_to_choose(first, end));
-        for_each_index(end - first, prisms_per_piece, [&](std::size_t k) {
-            place_prism((first + k) / graph_.facets(), (first + k) % graph_.facets());
+        const HullRange prisms = prisms_here();
+        choice_ = choose_templates<D>(options_, graph_, sweep_, points_, layers_to_choose(prisms));
+        for_each_index(prisms.count, prisms_per_piece, [&](std::size_t k) {
+            place_prism((prisms.first + k) / graph_.facets(), (prisms.first + k) % graph_.facets());
         });
     }
 
-    /// The layers whose diagonals matter here: those of prisms [first, end) and of the prisms that join the
-    /// caps' cells, and the layers beside them.
-    LayerRange layers_to_choose(std::size_t first, std::size_t end) const {
+    /// The prisms with cells here.
+    HullRange prisms_here() const {
+        const HullRange here = held(order_.initial_cells, order_.side_cells);
+        if (here.count == 0) {
+            return {};
+        }
+        const std::size_t first = (here.first - order_.initial_cells) / order_.cells_per_prism;
+        const std::size_t end = (here.end() - order_.initial_cells - 1) / order_.cells_per_prism + 1;
+        return {first, end - first};
+    }
+
+    /// The layers whose diagonals matter here: those of `prisms` and of the prisms that join the caps' cells,
+    /// and the layers beside them.
+    LayerRange layers_to_choose(const HullRange& prisms) const {
         LayerRange layers{order_.layers, 0};
-        if (first < end) {
-            layers = {first / graph_.facets(), (end - 1) / graph_.facets() + 1};
+        if (prisms.count > 0) {
+            layers = {prisms.first / graph_.facets(), (prisms.end() - 1) / graph_.facets() + 1};
         }
         if (held(0, order_.initial_cells).count > 0) {
             layers = {0, std::max<std::size_t>(layers.end, 1)};
@@ -495,11 +508,13 @@ HullRange range_of_rank(std::size_t cells, const Communicator& ranks) {
 }
 
 template<int D>
-HullPart<D> stitch_part(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
+HullPart<D> stitch_part(CapToStitch<D> initial, Sweep<D>& sweep, CapToStitch<D> terminating,
                         const SideOptions& options, IdCounter& ids, Communicator& ranks,
                         HullOrder<D>& order) {
     return together(ranks, [&] {
-        return Stitcher<D>{initial, sweep, terminating, options, ids}.part(ranks, order);
+        Stitcher<D> stitcher{initial, sweep, terminating, options, ids};
+        share_levels(sweep, stitcher.begin_part(ranks), ranks);
+        return stitcher.part(ranks, order);
     });
 }
 
@@ -509,10 +524,10 @@ template std::size_t side_vertex_count<2>(const Sweep<2>&, Split);
 template std::size_t side_vertex_count<3>(const Sweep<3>&, Split);
 template Hull<2> stitch<2>(CapToStitch<2>, const Sweep<2>&, CapToStitch<2>, const SideOptions&, IdCounter&);
 template Hull<3> stitch<3>(CapToStitch<3>, const Sweep<3>&, CapToStitch<3>, const SideOptions&, IdCounter&);
-template HullPart<2> stitch_part<2>(CapToStitch<2>, const Sweep<2>&, CapToStitch<2>, const SideOptions&,
-                                    IdCounter&, Communicator&, HullOrder<2>&);
-template HullPart<3> stitch_part<3>(CapToStitch<3>, const Sweep<3>&, CapToStitch<3>, const SideOptions&,
-                                    IdCounter&, Communicator&, HullOrder<3>&);
+template HullPart<2> stitch_part<2>(CapToStitch<2>, Sweep<2>&, CapToStitch<2>, const SideOptions&, IdCounter&,
+                                    Communicator&, HullOrder<2>&);
+template HullPart<3> stitch_part<3>(CapToStitch<3>, Sweep<3>&, CapToStitch<3>, const SideOptions&, IdCounter&,
+                                    Communicator&, HullOrder<3>&);
 template SpatialMesh<2> terminating_cap_of<2>(const Hull<2>&, Array<Facet<2>>);
 template SpatialMesh<3> terminating_cap_of<3>(const Hull<3>&, Array<Facet<3>>);
 

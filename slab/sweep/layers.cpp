@@ -2,6 +2,7 @@
 #include "slabhull/slab/layers.h"
 
 #include "slab/sweep/layer_meter.h"
+#include "slab/sweep/share_levels.h"
 #include "slab/sweep/sweep_start.h"
 #include "slabhull/core/communicator.h"
 #include "slabhull/slab/hull_part.h"
@@ -89,7 +90,7 @@ struct SweepTask {
     }
 
 private:
-    /// Sweeps the boundary through all levels, and measures this rank's layers.
+    /// Sweeps the boundary through all levels, and measures this rank's layers, of which it keeps the levels.
     void sweep_through(MeasuredSweep<D>& result, bool to_the_end, const Communicator& all,
                        SweepEnd& end) const {
         Sweep<D>& sweep = result.sweep;
@@ -97,6 +98,7 @@ private:
         LayerMeter<D> meter{mover, sweep, options, sweep.layers(), sweep.times.front(), sweep.times.back()};
         result.fit = meter.fit();
         const HullRange measured = range_of_rank(sweep.layers(), all);
+        const HullRange kept = levels_of(measured);
         for (std::size_t layer = 0; layer < sweep.layers(); ++layer) {
             const double from = sweep.times[layer];
             const double to = sweep.times[layer + 1];
@@ -115,6 +117,9 @@ private:
             end.at = {layer, SweepEnd::projecting};
             mover.project(places, to);
             sweep.positions.push_back(std::move(places));
+            if (layer > 0 && !kept.contains(layer)) {
+                sweep.release(layer); // the motion goes on from the next level
+            }
         }
         sweep.projected = mover.projected();
         end.at = {sweep.layers(), SweepEnd::moving};

@@ -10,7 +10,7 @@ namespace slabhull {
 
 template<int D>
 Surface<D> Sweep<D>::at(std::size_t level) const {
-    return boundary.at(positions[level]);
+    return boundary.at(places(level));
 }
 
 template<int D>

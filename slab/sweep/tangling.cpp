@@ -2,6 +2,7 @@
 #include "slabhull/slab/tangling.h"
 
 #include "core/listed.h"
+#include "core/pieces.h"
 #include "slab/sweep/boundary_mover.h"
 #include "slabhull/core/communicator.h"
 #include "slabhull/geometry/embedding.h"
@@ -11,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -101,14 +103,16 @@ std::string crossings_in_words(const Surface<D>& surface, double time) {
     return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-/// Brackets the time of tangling between a good level and a bad one.
+/// Brackets the time of tangling between a good level and a bad one, whose places are given: not every rank
+/// has them.
 template<int D>
 class Bisection {
 public:
-    Bisection(const Sweep<D>& sweep, BoundaryMover<D>& mover, std::size_t bad_level)
-        : sweep_{sweep}, mover_{mover}, good_places_{sweep.positions[bad_level - 1]},
-          bad_places_{sweep.positions[bad_level]}, good_{sweep.times[bad_level - 1]},
-          bad_{sweep.times[bad_level]}, fault_{fault_of<D>(sweep.boundary, at(bad_places_), bad_).value()} {}
+    Bisection(const Sweep<D>& sweep, BoundaryMover<D>& mover, std::size_t bad_level,
+              std::array<Array<Point<D>>, 2> places)
+        : sweep_{sweep}, mover_{mover}, good_places_{std::move(places[0])},
+          bad_places_{std::move(places[1])}, good_{sweep.times[bad_level - 1]}, bad_{sweep.times[bad_level]},
+          fault_{fault_of<D>(sweep.boundary, at(bad_places_), bad_).value()} {}
 
     [[noreturn]] void run() {
         const double begin = sweep_.times.front();
@@ -163,16 +167,27 @@ std::size_t first_at_fault(const Sweep<D>& sweep, Communicator& ranks) {
     return ranks.min(level < end ? level : sweep.times.size());
 }
 
+/// The places below and above a layer, from the rank whose share it is.
+template<int D>
+std::array<Array<Point<D>>, 2> places_around(std::size_t layer, const Sweep<D>& sweep, Communicator& ranks) {
+    const bool mine = range_of_rank(sweep.layers(), ranks).contains(layer);
+    const auto on_level = [&](std::size_t level) {
+        return joined(ranks.all_gather<Point<D>>(mine ? sweep.places(level) : Array<Point<D>>{}));
+    };
+    return {on_level(layer), on_level(layer + 1)};
+}
+
 } // namespace
 
 template<int D>
 void require_embedded_levels(const Sweep<D>& sweep, const PatchMotions<D>& motions, double motion_start,
                              const TrajectoryOptions& options, Communicator* ranks) {
     SoleRank alone;
-    const std::size_t level = first_at_fault<D>(sweep, ranks != nullptr ? *ranks : alone);
+    Communicator& all = ranks != nullptr ? *ranks : alone;
+    const std::size_t level = first_at_fault<D>(sweep, all);
     if (level < sweep.times.size()) {
         BoundaryMover<D> mover{sweep, motions, motion_start, options};
-        Bisection<D>{sweep, mover, level}.run();
+        Bisection<D>{sweep, mover, level, places_around(level - 1, sweep, all)}.run();
     }
 }
 

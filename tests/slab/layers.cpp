@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/layers.h"
 
+#include "slab/sweep/share_levels.h"
 #include "slabhull/cases/initial.h"
 #include "slabhull/cases/settings.h"
 #include "slabhull/core/communicator.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -378,6 +380,18 @@ struct Outcome {
 
     bool operator==(const Outcome&) const = default;
 
+    /// What a rank has of it: the levels of its layers, the first and the last.
+    Outcome of_rank(std::size_t rank, std::size_t ranks) const {
+        Outcome here = *this;
+        const HullRange share = range_of_part(layers, rank, ranks);
+        for (std::size_t level = 1; level < layers; ++level) {
+            if (level < share.first || level > share.end()) {
+                here.positions[level].clear();
+            }
+        }
+        return here;
+    }
+
     template<class Work>
     static Outcome of(const Work& work) {
         try {
@@ -398,15 +412,33 @@ struct Outcome {
 template<int D, class SweepIn>
 void require_same_in_ranks(const SweepIn& sweep) {
     const auto alone = Outcome<D>::of([&] { return sweep(nullptr); });
-    for (const int size : {1, 2, 3, 5}) {
+    for (const int size : {1, 2, 3, 5, 7}) {
         std::vector<Outcome<D>> found(static_cast<std::size_t>(size));
         run_team(size, [&](Communicator& ranks) {
             found[static_cast<std::size_t>(ranks.rank())] = Outcome<D>::of([&] { return sweep(&ranks); });
         });
-        for (const Outcome<D>& of_rank : found) {
-            CHECK(of_rank == alone);
+        for (std::size_t rank = 0; rank < found.size(); ++rank) {
+            CHECK(found[rank] == alone.of_rank(rank, found.size()));
         }
     }
+}
+
+/// Some levels, one after the other; often none or all.
+HullRange random_levels(std::size_t levels, std::mt19937& random) {
+    const std::size_t first = random() % levels;
+    const std::array<HullRange, 4> ranges{HullRange{}, {0, levels}, {first, 1}, {first, levels - first}};
+    return ranges[random() % ranges.size()];
+}
+
+/// Whether a sweep has the levels `kept`, the first and the last of `whole`, and no others.
+template<int D>
+bool has_only(const Sweep<D>& sweep, const HullRange& kept, const Sweep<D>& whole) {
+    bool same = sweep.positions.size() == whole.positions.size();
+    for (std::size_t level = 0; level < whole.positions.size() && same; ++level) {
+        const bool here = level == 0 || level == whole.layers() || kept.contains(level);
+        same = here ? sweep.positions[level] == whole.positions[level] : !sweep.has(level);
+    }
+    return same;
 }
 
 } // namespace
@@ -424,8 +456,46 @@ TEMPLATE_TEST_CASE_SIG("ranks that measure layers together find what one process
           MovingPatch<D>{along<D>("t < 0.7 ? 1 : 1 / (t - t)")},
           MovingPatch<D>{along<D>("t < 0.5 ? 90 * cos(90 * t) : 1 / (t - t)")}}) {
         require_same_in_ranks<D>([&](Communicator* ranks) { return setting.sweep(moving, few, ranks); });
-        require_same_in_ranks<D>([&](Communicator* ranks) { return setting.measured(moving, 4, {}, ranks); });
+        for (const std::size_t layers : {1, 4}) {
+            require_same_in_ranks<D>(
+                [&](Communicator* ranks) { return setting.measured(moving, layers, {}, ranks); });
+        }
     }
+}
+
+TEMPLATE_TEST_CASE_SIG("ranks get the levels that they ask for", "[layers]", ((int D), D), 2, 3) {
+    const auto& setting = Setting<D>::get();
+    const MovingPatch<D> moving{turning<D>(1)};
+    for (const std::size_t layers : {1, 2, 5, 12}) {
+        const Sweep<D> whole = setting.measured(moving, layers).sweep;
+        for (const int size : {1, 2, 3, 4, 7}) {
+            std::atomic<int> wrong{0};
+            run_team(size, [&](Communicator& ranks) {
+                std::mt19937 random{static_cast<unsigned>(ranks.rank())};
+                const Sweep<D> share = setting.measured(moving, layers, {}, &ranks).sweep;
+                for (int round = 0; round < 20; ++round) {
+                    const HullRange wanted = random_levels(layers + 1, random);
+                    Sweep<D> sweep = share;
+                    share_levels(sweep, wanted, ranks);
+                    wrong += has_only(sweep, wanted, whole) ? 0 : 1;
+                }
+                Sweep<D> sweep = whole; // nobody lacks anything
+                const std::uint64_t sent = ranks.sent_bytes();
+                share_levels(sweep, levels_of_rank(layers, ranks), ranks);
+                wrong += has_only(sweep, levels_of_rank(layers, ranks), whole) ? 0 : 1;
+                wrong += ranks.sent_bytes() - sent > static_cast<std::size_t>(size) * (layers + 1) ? 1 : 0;
+            });
+            CHECK(wrong == 0);
+        }
+    }
+}
+
+TEST_CASE("a level that is not here is not given", "[layers]") {
+    Sweep<2> sweep = Setting<2>::get().measured({turning<2>(1)}, 3).sweep;
+    keep_levels(sweep, {0, 2});
+    CHECK(sweep.at(1).points.size() == sweep.boundary.vertex_count());
+    CHECK_THROWS_AS(sweep.places(2), std::logic_error);
+    CHECK_THROWS_AS(sweep.at(2), std::logic_error);
 }
 
 namespace {

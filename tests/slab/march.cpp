@@ -2,6 +2,8 @@
 #include "slabhull/slab/march.h"
 
 #include "core/rounds.h"
+#include "slab/march/cap_reuse.h"
+#include "slab/swept_grid.h"
 #include "slabhull/cases/settings.h"
 
 #include "slabhull/cases/initial.h"
@@ -249,17 +251,22 @@ TEST_CASE("a boundary that tangles between levels is bracketed to a thousandth o
 
 TEST_CASE("ranks that check levels together find the tangling that one process finds", "[tangling]") {
     March<2> march = coarse_march<2>();
-    const PatchMotions<2> motions{{march.settings().motions.begin()->first, {translation<2>({10, 0})}}};
-    const Sweep<2> sweep =
-        sweep_boundary<2>(march.state().boundary, march.state().cap, motions, 0, even_levels(0, 1, 8), {});
+    const double speed = GENERATE(31.0, 10.0, 4.3); // in the first layer of eight, the fourth, the last
+    const PatchMotions<2> motions{{march.settings().motions.begin()->first, {translation<2>({speed, 0})}}};
     const auto found_by = [&](Communicator* ranks) {
+        const Sweep<2> sweep = sweep_measured<2>(march.state().boundary, march.state().cap, motions, 0,
+                                                 even_levels(0, 1, 8), {}, {}, ranks)
+                                   .sweep;
         try {
             require_embedded_levels<2>(sweep, motions, 0, {}, ranks);
         } catch (const TangledBoundary& tangled) {
-            return std::tuple{std::string{tangled.what()}, tangled.good_until, tangled.tangled_at,
-                              tangled.entities.size()};
+            std::vector<std::int64_t> facets;
+            for (const Entity& facet : tangled.entities) {
+                facets.push_back(facet.number);
+            }
+            return std::tuple{std::string{tangled.what()}, tangled.good_until, tangled.tangled_at, facets};
         }
-        return std::tuple{std::string{"nothing"}, 0.0, 0.0, std::size_t{0}};
+        return std::tuple{std::string{"nothing"}, 0.0, 0.0, std::vector<std::int64_t>{}};
     };
     const auto alone = found_by(nullptr);
     CHECK(std::get<0>(alone) != "nothing");
@@ -270,6 +277,51 @@ TEST_CASE("ranks that check levels together find the tangling that one process f
         });
         for (const auto& of_rank : found) {
             CHECK(of_rank == alone);
+        }
+    }
+}
+
+namespace {
+
+/// A rank's share of a march whose caps are whole.
+template<int D>
+March<D> in_ranks(MarchState<D> state, SlabSettings<D> settings, Communicator& ranks) {
+    CapCells<D> cells = take_cells(state.cap, ranks);
+    const HullRange here = range_of_rank(cells.all, ranks);
+    state.cells = redistributed(std::move(cells), here, ranks);
+    settings.ranks = &ranks;
+    return {std::move(state), std::move(settings)};
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE_SIG("a cap that one step does not serve is moved from level to level in ranks, too",
+                       "[march]", ((int D), D), 2, 3) {
+    March<D> march = coarse_march<D>();
+    SlabSettings<D>& settings = march.settings();
+    Point<D> axis{};
+    axis[D - 1] = 1;
+    settings.motions.begin()->second = {rotation<D>(axis, {}, D == 2 ? 2 : 1)};
+    settings.reuse = CapReuse::move;
+    settings.reuse_angle = 1;
+    const std::vector<double> times = even_levels(0, 1, 9);
+    const MarchState<D>& start = march.state();
+    const Sweep<D> sweep =
+        sweep_boundary<D>(start.boundary, start.cap, settings.motions, 0, times, settings.trajectory);
+    REQUIRE_FALSE(reuse_in_one_step<D>(start.cap, sweep, settings.reuse_angle).good());
+    REQUIRE(reuse_by_levels<D>(start.cap, sweep, settings.reuse_angle).good());
+    const Slab<D> whole = march.propose(times);
+    for (const int size : {1, 2, 3, 7}) {
+        std::vector<Slab<D>> made(static_cast<std::size_t>(size));
+        run_team(size, [&](Communicator& ranks) {
+            StageClock clock;
+            March<D> share = in_ranks<D>(start, settings, ranks);
+            made[static_cast<std::size_t>(ranks.rank())] = share.build(times, clock);
+        });
+        for (const Slab<D>& slab : made) {
+            CHECK(slab.cap_moved);
+            CHECK(slab.moved_angle == whole.moved_angle);
+            CHECK(specimens::part_is_of<D>(*slab.part, whole.hull));
         }
     }
 }

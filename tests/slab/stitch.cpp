@@ -3,6 +3,7 @@
 #include "slabhull/cases/settings.h"
 
 #include "slab/stitch/layered_side.h"
+#include "slab/sweep/share_levels.h"
 #include "slab/swept_grid.h"
 #include "slabhull/cases/case.h"
 #include "slabhull/cases/initial.h"
@@ -21,6 +22,7 @@
 #include <set>
 
 using namespace slabhull;
+using specimens::part_is_of;
 using specimens::SlabParts;
 using specimens::stitched;
 
@@ -49,28 +51,6 @@ SlabParts<D> slab_over(const specimens::Grid<D>& grid, std::vector<double> times
     IdCounter ids;
     auto cap = specimens::as_cap<D>(grid, ids);
     return specimens::next_slab<D>(std::move(cap), std::move(times), motion, ids);
-}
-
-/// Whether all that a part says is what the whole hull says there.
-template<int D>
-bool part_is_of(const HullPart<D>& part, const Hull<D>& whole) {
-    std::vector<std::size_t> numbers;
-    for (std::size_t k = 0; k < part.points.size(); ++k) {
-        numbers.push_back(part.points_used->member(k));
-    }
-    bool same = part.hull_cells == whole.cells.size() && part.hull_points() == whole.points.size();
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-        same = same && part.points[k] == whole.points[numbers[k]] &&
-               part.vertex_ids[k] == whole.vertex_ids[numbers[k]] &&
-               part.track_ids[k] == whole.track_ids[numbers[k]];
-    }
-    for (std::size_t c = 0; c < part.cells.size(); ++c) {
-        for (std::size_t i = 0; i <= D; ++i) {
-            same = same && numbers[part.cells[c][i]] == whole.cells[part.range.first + c][i] &&
-                   part.in_hull(part.neighbors[c][i]) == whole.neighbors[part.range.first + c][i];
-        }
-    }
-    return same;
 }
 
 template<int D>
@@ -145,10 +125,13 @@ std::size_t starting_at_smallest(const std::set<std::array<std::int64_t, 3>>& di
         std::count_if(diagonals.begin(), diagonals.end(), [](const auto& d) { return d[1] < d[2]; }));
 }
 
-/// What one rank stitches of a slab. The caps' cells come from the first rank.
+/// What one rank stitches of a slab. The caps' cells come from the first rank, the sweep's levels from the
+/// ranks that have swept its layers.
 template<int D>
 HullPart<D> part_by_rank(const SlabParts<D>& parts, const SideOptions& side, Communicator& team,
                          HullOrder<D>& order) {
+    Sweep<D> sweep = parts.sweep;
+    keep_levels(sweep, levels_of_rank(sweep.layers(), team));
     SpatialMesh<D> initial = parts.initial;
     SpatialMesh<D> terminating = parts.terminating;
     leave_cells_on_first(initial, team);
@@ -160,7 +143,7 @@ HullPart<D> part_by_rank(const SlabParts<D>& parts, const SideOptions& side, Com
     begin.give_cells(first);
     end.give_cells(last);
     IdCounter ids{1'000'000};
-    return stitch_part<D>(begin, parts.sweep, end, side, ids, team, order);
+    return stitch_part<D>(begin, sweep, end, side, ids, team, order);
 }
 
 } // namespace

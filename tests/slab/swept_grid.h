@@ -109,4 +109,26 @@ Hull<D> stitched(const SlabParts<D>& parts, const SideOptions& side) {
     return stitch<D>(parts.initial, parts.sweep, parts.terminating, side, ids);
 }
 
+/// Whether all that a part says is what the whole hull says there.
+template<int D>
+bool part_is_of(const HullPart<D>& part, const Hull<D>& whole) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 0; k < part.points.size(); ++k) {
+        numbers.push_back(part.points_used->member(k));
+    }
+    bool same = part.hull_cells == whole.cells.size() && part.hull_points() == whole.points.size();
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        same = same && part.points[k] == whole.points[numbers[k]] &&
+               part.vertex_ids[k] == whole.vertex_ids[numbers[k]] &&
+               part.track_ids[k] == whole.track_ids[numbers[k]];
+    }
+    for (std::size_t c = 0; c < part.cells.size(); ++c) {
+        for (std::size_t i = 0; i <= D; ++i) {
+            same = same && numbers[part.cells[c][i]] == whole.cells[part.range.first + c][i] &&
+                   part.in_hull(part.neighbors[c][i]) == whole.neighbors[part.range.first + c][i];
+        }
+    }
+    return same;
+}
+
 } // namespace slabhull::specimens

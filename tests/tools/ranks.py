@@ -113,6 +113,15 @@ class SameBytes(RanksTest):
         whole = self.alone(text, 3, "alone")
         self.same_files(whole, self.in_ranks(3, self.case(text)))
 
+    def test_caps_that_are_moved_from_level_to_level(self):
+        # After 90 degrees in one step, angles are too small. Of 5 ranks two have no layer.
+        text = sphere("A", more='[cap]\nreuse = "move"\nreuse_angle = 0.5\nblocks = 1\n').replace("expanding-sphere", "ellipsoid")
+        text = text.replace("slabs = 2\nlayers = 2", "slabs = 1\nlayers = 3\nend = 1")
+        whole = self.alone(text, 5, "alone")
+        out = self.in_ranks(5, self.case(text))
+        self.same_files(whole, out)
+        self.assertEqual(json.loads((out / "report.json").read_text())["slabs"][0]["cap"]["made"], "moved")
+
 
 MOVED = '[cap]\nreuse = "move"\n'
 
@@ -219,6 +228,16 @@ class Refused(RanksTest):
         self.refused_in_ranks(circle("centre").replace('"pvtu"', '"vtu"'), 2, "output.formats", "vtu")
         self.refused_in_ranks(circle("centre") + "pieces = 5\n", 2, "output.pieces", "2 ranks")
         self.refused_in_ranks(circle("centre", '[cap]\nreuse = "adapt"\n'), 2, "cap.reuse", "adapt")
+
+    def test_a_boundary_that_tangles(self):
+        """In a level of a later rank, in the words of one process."""
+        motion = '[motion.body]\nkind = "translation"\nvelocity = [5, 0]\n'
+        text = circle("centre", motion).replace("slabs = 2", "slabs = 1\nlayers = 8")
+        alone = slabhull("build", self.case(text), "--out", self.dir / "alone")
+        self.assertIn("cross", alone.err)
+        for ranks in (2, 3):
+            result = mpirun(ranks, "build", self.case(text), "--out", self.dir / "out")
+            self.assertEqual((result.code, our_lines(result.err)), (alone.code, our_lines(alone.err)))
 
     def test_a_case_file_that_is_not_there(self):
         result = mpirun(3, "build", self.dir / "none.toml")

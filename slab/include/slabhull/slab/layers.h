@@ -67,8 +67,9 @@ std::vector<double> halved_levels(const std::vector<double>& times);
 /// As sweep_boundary(), and measures how well the layers follow the motion. Trajectories are sampled at eight
 /// times per layer (at least 32 per slab) and at the rows of tables (at most 1,000 per slab). Between samples
 /// they are Hermite cubics, whose velocity is compared with the motion's at a time that no period of the
-/// samples meets: even a whole turn between two samples is noticed. Cost: about twice that of
-/// sweep_boundary().
+/// samples meets: even a whole turn between two samples is noticed. In ranks each sweeps through all levels,
+/// measures its share of the layers, and keeps the levels of these, the first and the last. Cost: about twice
+/// that of sweep_boundary().
 template<int D>
 MeasuredSweep<D> sweep_measured(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
                                 const PatchMotions<D>& motions, double motion_start,

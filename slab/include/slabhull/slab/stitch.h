@@ -100,13 +100,13 @@ Hull<D> stitch(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> ter
                const SideOptions& options, IdCounter& ids);
 
 /// This rank's part of the hull that stitch() would make, see range_of_part(), and the order of the whole.
-/// Every rank is given the caps' points, the sweep and the ids, and some of the caps' cells
-/// (CapToStitch::give_cells()), which are sent to where their part is. Each takes time and memory for its own
-/// cells and for what follows from the boundary: its graph, and the diagonals of the layers that the part
-/// touches. The hull's points cost a bit each. Collective. Throws as stitch() does, and UsageError for more
-/// ranks than cells.
+/// Every rank is given the caps' points and the ids, and some of the sweep's levels and of the caps' cells
+/// (CapToStitch::give_cells()), which are sent to where their part is: `sweep` keeps the levels that the part
+/// needs, and the first and the last. Each rank takes time and memory for its own cells and for what follows
+/// from the boundary: its graph, and the diagonals of the layers that the part touches. The hull's points
+/// cost a bit each. Collective. Throws as stitch() does, and UsageError for more ranks than cells.
 template<int D>
-HullPart<D> stitch_part(CapToStitch<D> initial, const Sweep<D>& sweep, CapToStitch<D> terminating,
+HullPart<D> stitch_part(CapToStitch<D> initial, Sweep<D>& sweep, CapToStitch<D> terminating,
                         const SideOptions& options, IdCounter& ids, Communicator& ranks, HullOrder<D>& order);
 
 } // namespace slabhull

@@ -12,6 +12,7 @@
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <map>
+#include <stdexcept>
 #include <vector>
 
 namespace slabhull {
@@ -31,17 +32,31 @@ struct MovingPatch {
 template<int D>
 using PatchMotions = std::map<PatchNumber, MovingPatch<D>>;
 
-/// The boundary of the domain on every level of a slab: step 3 of the method.
+/// The boundary of the domain on every level of a slab: step 3 of the method. In ranks each has the first
+/// level, the last and some between.
 template<int D>
 struct Sweep {
     Boundary<D> boundary;                   ///< what is swept; it bounds the initial cap
     std::vector<double> times;              ///< of the levels, ascending
-    std::vector<Array<Point<D>>> positions; ///< by level, then by vertex of the boundary
+    std::vector<Array<Point<D>>> positions; ///< by level, then by vertex of the boundary; empty: not here
     std::map<PatchNumber, ProjectionReport>
         projected; ///< how far projection moved each patch, over all levels
 
     std::size_t layers() const { return times.size() - 1; }
-    /// The surface at a level.
+    /// Whether a level is here.
+    bool has(std::size_t level) const { return !positions[level].empty(); }
+    /// The places on a level. Throws std::logic_error if it is not here.
+    const Array<Point<D>>& places(std::size_t level) const {
+        if (!has(level)) {
+            throw std::logic_error{"a level is asked for that is on other ranks only"};
+        }
+        return positions[level];
+    }
+    /// Gives a level up, and its memory.
+    void release(std::size_t level) {
+        Array<Point<D>>{}.swap(positions[level]); // assigning {} would keep the memory
+    }
+    /// The surface at a level. Throws as places() does.
     Surface<D> at(std::size_t level) const;
 };
 

@@ -22,8 +22,8 @@ public:
 /// Checks the boundary on every level after the first, which is the initial cap's own. Between the first
 /// tangled level and the one before, the time is bracketed by bisection. Needs: what the sweep was made with.
 /// Throws TangledBoundary naming patches, facets, time and place. Cost: that of require_domain_boundary() for
-/// each level, and ten times more when it throws. In ranks, all call it with the same arguments, each checks
-/// its share of the levels, and what one process would throw is thrown on all.
+/// each level, and ten times more when it throws. In ranks, all call it with the same arguments, each has and
+/// checks its share of the levels, and what one process would throw is thrown on all.
 template<int D>
 void require_embedded_levels(const Sweep<D>& sweep, const PatchMotions<D>& motions, double motion_start,
                              const TrajectoryOptions& options, Communicator* ranks = nullptr);
