@@ -30,14 +30,26 @@ std::size_t count_of(const Communicator& ranks) {
     return static_cast<std::size_t>(ranks.size());
 }
 
-/// The blocks that the first rank has. Collective.
+/// The points of the blocks that the first rank has, and the facets of those that are this rank's.
+/// Collective.
 DomainBlocks blocks_of_first(const DomainBlocks& of_first, Communicator& ranks) {
+    std::vector<std::size_t> counts;
+    ListsByRank<Facet<3>> to(count_of(ranks));
+    for (const Array<Facet<3>>& facets : of_first.facets) {
+        Array<Facet<3>>& list = to[counts.size() % to.size()];
+        list.insert(list.end(), facets.begin(), facets.end());
+        counts.push_back(facets.size());
+    }
+    const Array<std::size_t> all_counts = ranks.broadcast<std::size_t>(counts, 0);
+    const Array<Facet<3>> here = std::move(ranks.all_to_all(to).front());
     DomainBlocks blocks;
     blocks.points = ranks.broadcast<Point<3>>(of_first.points, 0);
-    blocks.facets.resize(ranks.gather(of_first.facets.size()).front());
-    for (std::size_t k = 0; k < blocks.facets.size(); ++k) {
-        const auto list = ranks.first() ? std::span{of_first.facets[k]} : std::span<const Facet<3>>{};
-        blocks.facets[k] = ranks.broadcast(list, 0);
+    blocks.facets.resize(all_counts.size());
+    auto next = here.begin();
+    for (auto block = static_cast<std::size_t>(ranks.rank()); block < all_counts.size(); block += to.size()) {
+        const auto end = next + static_cast<std::ptrdiff_t>(all_counts[block]);
+        blocks.facets[block].assign(next, end);
+        next = end;
     }
     return blocks;
 }
