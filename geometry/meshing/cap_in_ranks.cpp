@@ -13,7 +13,9 @@
 #include "slabhull/core/communicator.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -54,17 +56,39 @@ DomainBlocks blocks_of_first(const DomainBlocks& of_first, Communicator& ranks) 
     return blocks;
 }
 
-/// The field that the first rank has. Collective.
-SizeField<3> size_of_first(const SizeField<3>* of_first, Communicator& ranks) {
-    Array<std::byte> lists;
-    SizeField<3>::Packed heading;
-    if (of_first != nullptr) {
-        heading = of_first->packed();
-        lists.insert(lists.end(), of_first->source_bytes().begin(), of_first->source_bytes().end());
-        lists.insert(lists.end(), of_first->box_bytes().begin(), of_first->box_bytes().end());
+/// The box around a block, by its lowest and highest corners.
+std::array<Point<3>, 2> box_around(const DomainBlocks& blocks, std::size_t number) {
+    constexpr double most = std::numeric_limits<double>::infinity();
+    std::array<Point<3>, 2> box{{{most, most, most}, {-most, -most, -most}}};
+    for (const Facet<3>& facet : blocks.facets[number]) {
+        for (const Index v : facet) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                box[0][k] = std::min(box[0][k], blocks.points[v][k]);
+                box[1][k] = std::max(box[1][k], blocks.points[v][k]);
+            }
+        }
     }
-    heading = ranks.gather(heading).front();
-    return {heading, ranks.broadcast<std::byte>(lists, 0)};
+    return box;
+}
+
+/// What this rank's blocks need of the field that the first rank has. Collective.
+SizeField<3> size_of_first(const SizeField<3>* of_first, const DomainBlocks& blocks, Communicator& ranks) {
+    const std::size_t count = count_of(ranks);
+    ListsByRank<SizeField<3>::Packed> headings(count);
+    ListsByRank<std::byte> lists(count);
+    for (std::size_t rank = 0; rank < count && of_first != nullptr; ++rank) {
+        std::vector<std::array<Point<3>, 2>> boxes;
+        for (std::size_t block = rank; block < blocks.facets.size(); block += count) {
+            boxes.push_back(box_around(blocks, block));
+        }
+        const SizeField<3> part = of_first->part_within(boxes);
+        headings[rank].push_back(part.packed());
+        for (const std::span<const std::byte> bytes : {part.source_bytes(), part.box_bytes()}) {
+            lists[rank].insert(lists[rank].end(), bytes.begin(), bytes.end());
+        }
+    }
+    const SizeField<3>::Packed heading = ranks.all_to_all(headings).front().front();
+    return {heading, ranks.all_to_all(lists).front()};
 }
 
 /// This rank's blocks. As many are meshed at once as there are ranks, so that the first error is that of one
@@ -266,7 +290,7 @@ CapMesh<3> mesh_in_ranks(const Boundary<3>& boundary, const Surface<3>& surface,
         blocks = cut_domain(boundary, surface, *size, options.grading.growth, sample_load(surface, *size),
                             options.blocks);
     }
-    size = size_of_first(ranks.first() ? &*size : nullptr, ranks);
+    size = size_of_first(ranks.first() ? &*size : nullptr, blocks, ranks);
     blocks = blocks_of_first(blocks, ranks);
     std::vector<MeshedBlock> own = own_blocks(blocks, *size, options);
     size.reset();

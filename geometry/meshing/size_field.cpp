@@ -173,6 +173,80 @@ private:
     std::vector<double> values_;
 };
 
+/// Copies the boxes of a tree that meet some given ones, and the sources of their leaves.
+template<int D>
+class SizeField<D>::PartMaker {
+public:
+    PartMaker(const SizeField& whole, std::span<const std::array<Point<D>, 2>> wanted)
+        : whole_{whole}, wanted_{wanted}, number_(whole.sources_.size()), slack_{1e-9 * whole.edge_} {
+        number_.assign(number_.size(), no_index);
+        for (const double x : whole.corner_) {
+            slack_ = std::max(slack_, 1e-14 * std::abs(x)); // centroids are rounded
+        }
+    }
+
+    SizeField run() {
+        part_.grading_ = whole_.grading_;
+        part_.corner_ = whole_.corner_;
+        part_.edge_ = whole_.edge_;
+        part_.boxes_.assign(1, Box{});
+        copy(0, 0, whole_.centre(), whole_.edge_ / 2);
+        return std::move(part_);
+    }
+
+private:
+    void copy(Index from, Index to, const Point<D>& centre, double half) {
+        if (!is_wanted(centre, half)) {
+            return;
+        }
+        const Box& box = whole_.boxes_[from];
+        if (box.children == no_index) {
+            part_.boxes_[to].source = number_of(box.source);
+            return;
+        }
+        const Index first = checked_index(part_.boxes_.size(), "boxes of a size field");
+        part_.boxes_[to].children = first;
+        part_.boxes_.resize(first + fan, Box{});
+        for (std::size_t child = 0; child < fan; ++child) {
+            const auto place = static_cast<Index>(child);
+            copy(box.children + place, first + place, child_centre(centre, half, child), half / 2);
+        }
+    }
+
+    bool is_wanted(const Point<D>& centre, double half) const {
+        return std::any_of(wanted_.begin(), wanted_.end(), [&](const std::array<Point<D>, 2>& box) {
+            for (std::size_t k = 0; k < D; ++k) {
+                if (centre[k] - half > box[1][k] + slack_ || centre[k] + half < box[0][k] - slack_) {
+                    return false;
+                }
+            }
+            return true;
+        });
+    }
+
+    Index number_of(Index source) {
+        if (source == no_index) {
+            return no_index;
+        }
+        if (number_[source] == no_index) {
+            number_[source] = static_cast<Index>(part_.sources_.size());
+            part_.sources_.push_back(whole_.sources_[source]);
+        }
+        return number_[source];
+    }
+
+    const SizeField& whole_;
+    std::span<const std::array<Point<D>, 2>> wanted_;
+    Array<Index> number_; ///< of sources, in the part
+    double slack_;
+    SizeField part_;
+};
+
+template<int D>
+SizeField<D> SizeField<D>::part_within(std::span<const std::array<Point<D>, 2>> boxes) const {
+    return PartMaker{*this, boxes}.run();
+}
+
 template<int D>
 SizeField<D>::SizeField(std::span<const Point<D>> points, std::span<const double> spacing,
                         const Grading& grading)

@@ -237,6 +237,38 @@ TEST_CASE("the cubes of the wanted size fill the box", "[size_field]") {
     CHECK(graded.cube_count() == Approx(8 * sum / samples).epsilon(0.1));
 }
 
+TEMPLATE_TEST_CASE_SIG("a part of the field says what the whole does in its boxes, and is smaller",
+                       "[size_field]", ((int D), D), 2, 3) {
+    std::mt19937 random{7};
+    std::uniform_real_distribution<double> unit{0, 1};
+    Cloud<D> cloud;
+    for (int k = 0; k < 500; ++k) {
+        Point<D> p;
+        std::generate(p.begin(), p.end(), [&] { return 1000 + unit(random); });
+        cloud.add(p, 0.001 + 0.05 * unit(random) * unit(random));
+    }
+    const SizeField<D> whole{cloud.points, cloud.spacing, {0.3}};
+    std::vector<std::array<Point<D>, 2>> boxes(2);
+    for (std::size_t k = 0; k < D; ++k) {
+        boxes[0][0][k] = 1000.1;
+        boxes[0][1][k] = 1000.25;
+        boxes[1][0][k] = 1000.7;
+        boxes[1][1][k] = 1000.7; // a single place
+    }
+    const SizeField<D> part = whole.part_within(boxes);
+    CHECK(part.box_count() < whole.box_count() / 3);
+    CHECK(part.source_bytes().size() < whole.source_bytes().size());
+    CHECK(part(boxes[1][0]) == whole(boxes[1][0]));
+    for (int k = 0; k < 2000; ++k) {
+        Point<D> p;
+        std::generate(p.begin(), p.end(), [&] { return 1000.1 + 0.15 * std::min(1.0, 1.2 * unit(random)); });
+        REQUIRE(part(p) == whole(p));
+    }
+    CHECK(whole.part_within({}).box_count() == 1);
+    const Point<D> low = cloud.points.front();
+    CHECK(SizeField<D>{std::span<const Point<D>>{}, {}, {0.3, 2}}.part_within(boxes)(low) == 2);
+}
+
 TEST_CASE("the spacing of a boundary vertex is the mean length of the edges at it", "[size_field]") {
     const std::vector<Point<2>> corners{{0, 0}, {3, 0}, {3, 4}, {9, 9}};
     const std::vector<Facet<2>> triangle{{0, 1}, {1, 2}, {2, 0}};

@@ -4,6 +4,7 @@
 #include "slabhull/core/array.h"
 #include "slabhull/core/point.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -51,6 +52,10 @@ public:
     /// The field that was packed so; `lists` are its sources and boxes, one after the other.
     SizeField(const Packed& packed, std::span<const std::byte> lists);
 
+    /// The field for places in some boxes, given by their lowest and highest corners: there it says what the
+    /// whole does. Elsewhere it may say `largest`. Cost: a descent of the tree for each box.
+    SizeField part_within(std::span<const std::array<Point<D>, 2>> boxes) const;
+
     std::size_t box_count() const { return boxes_.size(); }
 
     /// The integral of h^-D over the box of the points: the number of cubes of the wanted size that fill it.
@@ -67,6 +72,9 @@ private:
         Index source = no_index;   ///< source of a leaf's spacing; no_index: `largest`
     };
     class Builder;
+    class PartMaker;
+
+    SizeField() = default;
 
     Index leaf_at(const Point<D>& x) const;
     double in_leaf(Index box, const Point<D>& x) const;
