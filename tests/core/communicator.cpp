@@ -8,6 +8,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <mutex>
 #include <numeric>
 
@@ -62,9 +63,9 @@ TEST_CASE("what a rank sends to others is counted, and how often it meets them")
     run_team(3, [&](Communicator& ranks) {
         const std::array<std::int32_t, 5> mine{};
         ranks.all_gather<std::int32_t>(mine);               // to two others
-        ranks.broadcast<std::int32_t>({mine.data(), 4}, 1); // from one
+        ranks.broadcast<std::int32_t>({mine.data(), 4}, 1); // from one, in two steps
         const std::uint64_t expected = 2 * sizeof mine + (ranks.rank() == 1 ? 2 * 16 : 0);
-        right += ranks.sent_bytes() == expected && ranks.meetings() == 2 ? 1 : 0;
+        right += ranks.sent_bytes() == expected && ranks.meetings() == 3 ? 1 : 0;
     });
     CHECK(right == 3);
 }
@@ -94,6 +95,25 @@ TEST_CASE("lists of any length go to all ranks, from one, and between any two") 
         right += good ? 1 : 0;
     });
     CHECK(right == 4);
+}
+
+TEST_CASE("a list goes from one rank to all, who pass it on") {
+    for (const int size : {1, 2, 3, 5, 8, 9}) {
+        for (int root = 0; root < size; ++root) {
+            std::atomic<int> right{0};
+            run_team(size, [&](Communicator& ranks) {
+                const std::vector<int> list(100, root);
+                const Array<int> here = ranks.broadcast<int>(
+                    ranks.rank() == root ? std::span<const int>{list} : std::span<const int>{}, root);
+                const auto steps =
+                    static_cast<std::uint64_t>(std::bit_width(static_cast<unsigned>(size - 1)));
+                const bool good = here == Array<int>(100, root) && ranks.meetings() == steps &&
+                                  ranks.sent_bytes() <= steps * 100 * sizeof(int);
+                right += good ? 1 : 0;
+            });
+            CHECK(right == size);
+        }
+    }
 }
 
 TEST_CASE("a prefix sum that would overflow is refused") {

@@ -103,14 +103,26 @@ public:
     std::vector<Array<T>> all_to_all(const std::vector<std::span<const T>>& to) {
         return pass_on<T>(Call::all_to_all, to);
     }
-    /// The list that rank `root` has.
+    /// The list that rank `root` has. In each of log2(size()) steps, the ranks that have it double.
     template<class T>
     Array<T> broadcast(std::span<const T> list, int root) {
-        std::vector<std::span<const T>> to(static_cast<std::size_t>(size_));
+        const int place = (rank_ - root + size_) % size_;
+        const auto rank_at = [&](int other) { return static_cast<std::size_t>((other + root) % size_); };
+        Array<T> here;
         if (rank_ == root) {
-            std::fill(to.begin(), to.end(), list);
+            here.assign(list.begin(), list.end());
         }
-        return std::move(pass_on<T>(Call::broadcast, to)[static_cast<std::size_t>(root)]);
+        for (int have = 1; have < size_; have *= 2) {
+            std::vector<std::span<const T>> to(static_cast<std::size_t>(size_));
+            if (place < have && place + have < size_) {
+                to[rank_at(place + have)] = here;
+            }
+            std::vector<Array<T>> from = pass_on<T>(Call::broadcast, to);
+            if (have <= place && place < 2 * have) {
+                here = std::move(from[rank_at(place - have)]);
+            }
+        }
+        return here;
     }
 
     /// While it lives, work goes on in which any rank may fail alone: see together().
