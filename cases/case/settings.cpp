@@ -26,19 +26,22 @@ std::string nameless_groups(const std::vector<std::string>& names) {
                : "";
 }
 
-PatchNumber number_of(const PatchList& patches, const std::string& name, const char* table) {
-    const PatchNumber number = patch_number(patches, name);
-    if (number == 0) {
+/// All that have the name.
+std::vector<PatchNumber> numbers_of(const PatchList& patches, const std::string& name, const char* table) {
+    std::vector<PatchNumber> numbers = patch_numbers(patches, name);
+    if (numbers.empty()) {
         std::string known;
         std::vector<std::string> names;
         for (const Patch& patch : patches) {
-            names.push_back(patch.name);
-            known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", patch.name);
+            if (std::find(names.begin(), names.end(), patch.name) == names.end()) {
+                names.push_back(patch.name);
+                known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", patch.name);
+            }
         }
         throw UsageError(fmt::format("[{}.{}]: the domain has no patch \"{}\"; it has {}{}{}", table, name,
                                      name, known, nameless_groups(names), did_you_mean(name, names)));
     }
-    return number;
+    return numbers;
 }
 
 template<int D>
@@ -62,12 +65,14 @@ public:
         settings_.adapt.feature_angle = case_.adapt_feature_angle;
         settings_.adapt.distance = case_.adapt_distance;
         for (const auto& [patch, wanted] : case_.adapt_patches) {
-            settings_.adapt.patches[number_of(boundary_.patches(), patch, "adapt")] = wanted;
+            for (const PatchNumber number : numbers_of(boundary_.patches(), patch, "adapt")) {
+                settings_.adapt.patches[number] = wanted;
+            }
         }
         for (const auto& [patch, spec] : case_.motions) {
-            const PatchNumber number = number_of(boundary_.patches(), patch, "motion");
+            const std::vector<PatchNumber> numbers = numbers_of(boundary_.patches(), patch, "motion");
             try {
-                add_motion(number, spec);
+                add_motion(numbers, spec);
             } catch (const UsageError& error) {
                 throw UsageError(fmt::format("[motion.{}]: {}", patch, error.what()));
             }
@@ -80,19 +85,22 @@ public:
     }
 
 private:
-    void add_motion(PatchNumber number, const MotionSpec& spec) {
-        MovingPatch<D>& moving = settings_.motions[number];
+    void add_motion(const std::vector<PatchNumber>& numbers, const MotionSpec& spec) {
+        MovingPatch<D> moving;
         if (spec.is_field()) {
             moving.motion = motion_of<D>(spec, case_);
         } else if (spec.kind == MotionSpec::Kind::stretch) {
-            stretching_.insert(number);
+            stretching_.insert(numbers.begin(), numbers.end());
         } else {
             std::vector<TrackId> tracks(boundary_.vertex_count());
             std::iota(tracks.begin(), tracks.end(), 0);
             DisplacementFiles<D> files = read_displacement_files<D>(
-                spec.displacements, boundary_.start_surface(), tracks, number, {case_.start, case_.end});
+                spec.displacements, boundary_.start_surface(), tracks, numbers, {case_.start, case_.end});
             moving.nodal = std::move(files.motion);
-            matches_[number] = std::move(files.match);
+            matches_[numbers.front()] = std::move(files.match);
+        }
+        for (const PatchNumber number : numbers) {
+            settings_.motions[number] = moving;
         }
     }
 
@@ -107,11 +115,15 @@ private:
     }
 
     void add_projection(const std::string& patch, const ProjectionSpec& spec) {
-        MovingPatch<D>& moving = settings_.motions[number_of(boundary_.patches(), patch, "project")];
+        const std::vector<PatchNumber> numbers = numbers_of(boundary_.patches(), patch, "project");
+        MovingPatch<D> moving = settings_.motions[numbers.front()]; // all of one name have the same motion
         if (moving.motion == nullptr && moving.stretch == nullptr) {
             moving.motion = standing<D>();
         }
         moving.surface = projection_of<D>(spec);
+        for (const PatchNumber number : numbers) {
+            settings_.motions[number] = moving;
+        }
         if (moving.motion != nullptr && !moving.motion->map(case_.start, case_.end)) {
             throw UsageError(fmt::format(
                 "[project.{}]: a projection surface moves with its patch's motion, and a velocity "
