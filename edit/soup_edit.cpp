@@ -345,6 +345,12 @@ void scale(io::Soup& soup, double factor) {
     }
 }
 
+bool drop_adaptation(io::Soup& soup) {
+    return std::erase_if(soup.field_data, [](const io::DataArray& array) {
+               return array.name == "adapt_settings" || array.name == "adapt_spacing";
+           }) > 0;
+}
+
 void reverse(io::Soup& soup) {
     const auto swap_first_two = [](auto& values, std::size_t width) {
         for (std::size_t i = 0; i + width <= values.size(); i += width) {

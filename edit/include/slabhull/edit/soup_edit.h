@@ -57,6 +57,10 @@ void renumber_along_curve(io::Soup& soup);
 /// Multiplies space by `factor`; time stays.
 void scale(io::Soup& soup, double factor);
 
+/// Drops what an adapted hull's cap was held to. To fill the hull, its cap is adapted again, bit for bit,
+/// which needs the hull as it was built. Returns whether there was anything.
+bool drop_adaptation(io::Soup& soup);
+
 /// Turns the orientation of all simplices round by swapping their first two vertices.
 void reverse(io::Soup& soup);
 
