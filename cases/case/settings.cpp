@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -24,6 +25,34 @@ std::string nameless_groups(const std::vector<std::string>& names) {
     return any ? "; a number is a physical group without a name: use the number, or name the group in the "
                  "mesher"
                : "";
+}
+
+bool is_among(const std::string& format, const std::vector<std::string>& formats) {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
+/// Refuses numbers and names that the files of the case cannot hold: in MSH the caps' groups come after the
+/// patches, and attributes of fillings are 2 + the patch.
+void require_held(const Case& the_case, const PatchList& patches) {
+    constexpr PatchNumber largest = std::numeric_limits<PatchNumber>::max() - 2;
+    const bool msh = is_among("msh", the_case.formats);
+    const bool msh_of_filling = the_case.fill && is_among("msh", the_case.fill->formats);
+    for (const Patch& patch : patches) {
+        if ((msh || the_case.fill) && patch.number > largest) {
+            throw FormatLimit{fmt::format(
+                "patch \"{}\" has the number {}, but {} up to {}, as two more are for the caps; give it a "
+                "smaller number in the mesher{}",
+                patch.name, patch.number, msh ? "MSH files of hulls have numbers" : "fillings have patches",
+                largest, the_case.fill ? "" : ", or write VTU (output.formats)")};
+        }
+        if ((msh || msh_of_filling) && patch.name.find_first_of("\"\n\r") != std::string::npos) {
+            throw FormatLimit{
+                fmt::format("MSH has no place for a double quote or a line end in the name of a "
+                            "group, as in {}; rename it in the mesher, or leave \"msh\" out of "
+                            "{}.formats",
+                            patch.name, msh ? "output" : "fill")};
+        }
+    }
 }
 
 /// All that have the name.
@@ -154,6 +183,7 @@ CapOptions cap_options(const Case& the_case) {
 template<int D>
 CaseSettings<D> case_settings(const Case& the_case, const Boundary<D>& boundary) {
     try {
+        require_held(the_case, boundary.patches());
         return SettingsMaker<D>{the_case, boundary}.run();
     } catch (const UsageError& error) {
         if (the_case.file.empty()) {
