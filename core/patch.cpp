@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/core/patch.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace slabhull {
@@ -21,6 +22,22 @@ PatchNumber patch_number(const PatchList& patches, std::string_view name) {
         }
     }
     return 0;
+}
+
+std::string group_name(const PatchList& groups, std::int64_t number) {
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [number](const Patch& group) { return group.number == number; });
+    return found == groups.end() || found->name.empty() ? fmt::format("{}", number) : found->name;
+}
+
+std::vector<PatchNumber> patch_numbers(const PatchList& patches, std::string_view name) {
+    std::vector<PatchNumber> numbers;
+    for (const Patch& patch : patches) {
+        if (group_name({patch}, patch.number) == name) {
+            numbers.push_back(patch.number);
+        }
+    }
+    return numbers;
 }
 
 } // namespace slabhull

@@ -43,6 +43,27 @@ Order with_number(const Numbers& values, std::int64_t number) {
     return chosen(values.size(), [&](std::size_t i) { return values[i] == number; });
 }
 
+/// The cells whose patches or groups, of whatever numbers, are called `name`. Adds what all are called to
+/// `known`.
+template<class Values>
+Order called(const Values& numbers, const PatchList& patches, const std::string& name,
+             std::set<std::string>& known) {
+    std::map<std::int64_t, bool> wanted{{0, false}}; // by number; 0 is none
+    const auto look_up = [&](std::int64_t number) {
+        const auto [found, added] = wanted.try_emplace(number, false);
+        if (added) {
+            const std::string text = group_name(patches, number);
+            found->second = text == name;
+            known.insert(text);
+        }
+        return found->second;
+    };
+    for (const Patch& patch : patches) {
+        look_up(patch.number);
+    }
+    return chosen(numbers.size(), [&](std::size_t i) { return look_up(numbers[i]); });
+}
+
 void keep_only(io::Soup& soup, const std::array<Order, 4>& orders, const std::string& what) {
     if (std::all_of(orders.begin(), orders.end(), [](const Order& order) { return order.empty(); })) {
         throw InputError{fmt::format("{}: has no cells {}", soup.path, what)};
@@ -233,22 +254,15 @@ void select_patch(io::Soup& soup, const std::string& name) {
     const auto top = static_cast<std::size_t>(soup.top_dimension());
     std::set<std::string> known;
     std::array<Order, 4> orders;
-    const Numbers* patches = whole_numbers(soup.cell_data, "patch");
-    for (const Patch& patch : listed_patches(soup)) {
-        known.insert(patch.name);
-        if (patch.name == name && patches != nullptr) {
-            orders[top] = with_number(*patches, patch.number);
-        }
+    if (const Numbers* patches = whole_numbers(soup.cell_data, "patch")) {
+        orders[top] = called(*patches, listed_patches(soup), name, known);
     }
     for (std::size_t d = 0; d < orders.size(); ++d) {
-        for (const Patch& group : soup.groups[d]) {
-            known.insert(group.name);
-            if (group.name == name && orders[d].empty()) {
-                orders[d] = in_group(soup, d, group.number);
-            }
+        Order in_groups = called(soup.simplices[d].physical, soup.groups[d], name, known);
+        if (orders[d].empty()) {
+            orders[d] = std::move(in_groups);
         }
     }
-    known.erase("");
     if (!known.contains(name)) {
         throw UsageError{fmt::format("--patch: {} has no patch \"{}\"; it has {}", soup.path, name,
                                      known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")))};
@@ -329,6 +343,12 @@ void scale(io::Soup& soup, double factor) {
             point[k] *= factor;
         }
     }
+}
+
+bool drop_adaptation(io::Soup& soup) {
+    return std::erase_if(soup.field_data, [](const io::DataArray& array) {
+               return array.name == "adapt_settings" || array.name == "adapt_spacing";
+           }) > 0;
 }
 
 void reverse(io::Soup& soup) {

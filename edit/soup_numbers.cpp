@@ -16,8 +16,7 @@ namespace {
 using io::DataArray;
 using Numbers = IntegerList;
 
-/// Two numbers are left for the caps.
-constexpr std::int64_t largest_patch = std::numeric_limits<PatchNumber>::max() - 2;
+constexpr std::int64_t largest_patch = std::numeric_limits<PatchNumber>::max();
 
 DataArray* find_array(std::vector<DataArray>& arrays, const std::string& name) {
     const auto found = std::find_if(arrays.begin(), arrays.end(),
@@ -145,11 +144,14 @@ void add_time(io::Soup& soup) {
     soup.point_data.insert(soup.point_data.begin(), {"t", 1, std::move(times)});
 }
 
-bool expressible(const Numbers& patch, const Numbers* region) {
+/// Whether groups can say the same: with regions, two numbers are for the caps.
+bool expressible(const Numbers& patch, const Numbers* region, std::int64_t largest) {
+    if (largest > largest_patch - (region == nullptr ? 0 : 2)) {
+        return false;
+    }
     for (std::size_t c = 0; c < patch.size(); ++c) {
         const std::int64_t where = region == nullptr ? 1 : (*region)[c];
-        if (patch[c] < 0 || patch[c] > largest_patch || where < 0 || where > 2 ||
-            (where != 1 && patch[c] != 0)) {
+        if (patch[c] < 0 || where < 0 || where > 2 || (where != 1 && patch[c] != 0)) {
             return false;
         }
     }
@@ -240,7 +242,7 @@ void arrays_to_groups(io::Soup& soup) {
     io::SimplexBlock& block = top_block(soup);
     const Numbers* patch = numbers(soup.cell_data, "patch");
     const Numbers* region = numbers(soup.cell_data, "region");
-    if (has_groups(block) || patch == nullptr || patch->empty() || !expressible(*patch, region)) {
+    if (has_groups(block) || patch == nullptr || patch->empty()) {
         return;
     }
     PatchList patches = listed_patches(soup);
@@ -248,8 +250,11 @@ void arrays_to_groups(io::Soup& soup) {
     for (const Patch& each : patches) {
         largest = std::max<std::int64_t>(largest, each.number);
     }
-    const auto initial = static_cast<PatchNumber>(largest + 1);
-    const auto terminating = static_cast<PatchNumber>(largest + 2);
+    if (!expressible(*patch, region, largest)) {
+        return;
+    }
+    const auto initial = region == nullptr ? 0 : static_cast<PatchNumber>(largest + 1);
+    const auto terminating = region == nullptr ? 0 : static_cast<PatchNumber>(largest + 2);
     block.physical.resize(patch->size());
     for (std::size_t c = 0; c < patch->size(); ++c) {
         const std::int64_t where = region == nullptr ? 1 : (*region)[c];

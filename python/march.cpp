@@ -19,10 +19,10 @@ namespace slabhull::python {
 
 namespace {
 
-/// The number of a patch that there must be.
-PatchNumber require_patch(const PatchList& patches, const std::string& name) {
-    const PatchNumber number = patch_number(patches, name);
-    if (number == 0) {
+/// The numbers of all patches of a name that there must be.
+std::vector<PatchNumber> require_patches(const PatchList& patches, const std::string& name) {
+    std::vector<PatchNumber> numbers = patch_numbers(patches, name);
+    if (numbers.empty()) {
         std::vector<std::string> known;
         for (const Patch& patch : patches) {
             known.push_back(patch_name(patches, patch.number));
@@ -30,7 +30,7 @@ PatchNumber require_patch(const PatchList& patches, const std::string& name) {
         throw UsageError{
             fmt::format("the domain has no patch \"{}\"; its patches are {}", name, fmt::join(known, ", "))};
     }
-    return number;
+    return numbers;
 }
 
 /// The march after a slab, whose hull stays.
@@ -143,8 +143,11 @@ void SharedMarch::move(const std::string& patch, const py::object& motion, const
     require_idle();
     std::visit(
         [&]<int D>(const std::shared_ptr<March<D>>& march) {
-            const PatchNumber number = require_patch(march->state().boundary.patches(), patch);
-            march->settings().motions[number] = moving_patch<D>(motion, surface, patch);
+            const auto numbers = require_patches(march->state().boundary.patches(), patch);
+            const MovingPatch<D> moving = moving_patch<D>(motion, surface, patch);
+            for (const PatchNumber number : numbers) {
+                march->settings().motions[number] = moving;
+            }
         },
         march_);
     motions_[py::str(patch)] = motion;
@@ -156,7 +159,8 @@ void SharedMarch::stretch(const std::vector<std::string>& patches) {
         [&]<int D>(const std::shared_ptr<March<D>>& march) {
             std::set<PatchNumber> numbers;
             for (const std::string& name : patches) {
-                numbers.insert(require_patch(march->state().boundary.patches(), name));
+                const auto called = require_patches(march->state().boundary.patches(), name);
+                numbers.insert(called.begin(), called.end());
             }
             const StretchPointer<D> together =
                 long_call([&] { return harmonic_stretch<D>(march->state().boundary, numbers); });

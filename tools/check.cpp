@@ -185,6 +185,12 @@ std::optional<int> check_as_filling(const CheckCommand& command) {
         return std::nullopt;
     }
     const io::Soup soup = read_named(command.file, command.from); // tetrahedra of points (x, y, t)
+    if (kind_of(soup).hull) {
+        throw UsageError{
+            fmt::format("{}: the hull of a slab, no filling, which --hull compares with the hull "
+                        "that it fills; leave --hull out to check it by itself",
+                        command.file)};
+    }
     const MeshArrays<3> mesh = mesh_of_soup<3>(soup);
     FillingArrays<2> filling;
     filling.points = mesh.points;

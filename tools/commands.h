@@ -25,4 +25,7 @@ int exit_code_of(const std::function<int()>& work);
 /// What is wrong with a command line, with the command or option that may have been meant.
 std::string usage_fault(const CLI::App& program, const CLI::ParseError& error);
 
+/// For numbers above 0: its message names the number alone.
+CLI::Validator positive_number();
+
 } // namespace slabhull::tools

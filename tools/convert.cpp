@@ -52,6 +52,12 @@ void tell(const std::string& file, const std::string& text) {
     fmt::print(stderr, "slabhull: {}: {}\n", file, text);
 }
 
+/// Whether what is written is not the whole hull as it was built.
+bool ends_adaptation(const ConvertCommand& command, const Welded& welded) {
+    return !command.region.empty() || command.patch || command.boundary || command.split ||
+           command.scale.value_or(1) != 1 || !command.renumber.empty() || welded.points + welded.cells > 0;
+}
+
 void edit(const ConvertCommand& command, io::Soup& soup) {
     if (!command.region.empty()) {
         const auto region =
@@ -64,10 +70,16 @@ void edit(const ConvertCommand& command, io::Soup& soup) {
     if (command.boundary) {
         extract_boundary(soup);
     }
+    Welded welded;
     if (command.weld) {
-        const Welded welded = weld(soup, *command.weld);
+        welded = weld(soup, *command.weld);
         tell(command.in, fmt::format("{} points welded to others, {} cells that collapsed left out",
                                      welded.points, welded.cells));
+    }
+    if (ends_adaptation(command, welded) && drop_adaptation(soup)) {
+        tell(command.in,
+             "adapt_settings and adapt_spacing left out: slabhull fill needs an adapted hull as it was "
+             "built; fill it first");
     }
     if (command.scale) {
         scale(soup, *command.scale);
@@ -87,9 +99,9 @@ void require_dimension(const ConvertCommand& command, const io::Format& format, 
     }
     if (dimension < format.features.min_dimension || dimension > format.features.max_dimension) {
         const bool surface_would_do = dimension == 3 && format.features.max_dimension == 2;
-        throw UsageError{fmt::format("{}: {} has no place for {}{}", command.out, format.title,
-                                     simplices_called(dimension),
-                                     surface_would_do ? "; --extract-boundary gives their surface" : "")};
+        throw FormatLimit{fmt::format(
+            "{}: {} has no place for {}; give {}", command.out, format.title, simplices_called(dimension),
+            surface_would_do ? "--extract-boundary for their surface" : "a format that has, such as .vtu")};
     }
 }
 
@@ -106,7 +118,8 @@ std::filesystem::path path_of_part(const std::filesystem::path& out, std::string
 /// Writes one or several soups; their files appear together, when all are complete.
 class Output {
 public:
-    Output(const ConvertCommand& command, const io::Format& format) : command_{command}, format_{format} {}
+    Output(const ConvertCommand& command, const io::Format& format, const io::FilesRead& read)
+        : command_{command}, format_{format}, read_{read} {}
 
     /// Brings arrays and groups of the soup to the form that the format stores.
     void write(const std::filesystem::path& path, io::Soup soup) {
@@ -136,6 +149,7 @@ public:
     }
 
     void commit() {
+        read_.require_none(files_.paths());
         if (!lost_.empty()) {
             tell(command_.out, fmt::format("{} does not hold: {}", format_.title, fmt::join(lost_, "; ")));
         }
@@ -146,6 +160,7 @@ public:
 private:
     const ConvertCommand& command_;
     const io::Format& format_;
+    const io::FilesRead& read_;
     io::AtomicFiles files_;
     std::vector<std::string> lost_;
     std::string told_; ///< for stdout
@@ -163,20 +178,27 @@ void write_parts(const ConvertCommand& command, const io::Soup& soup, Output& ou
     }
 }
 
+bool has_choices(const ConvertCommand& command) {
+    const io::WriteOptions& writing = command.writing;
+    return !writing.encoding.empty() || !writing.version.empty() || writing.four_dimensional ||
+           writing.pieces > 0 || command.reading.linear;
+}
+
 bool edits(const ConvertCommand& command) {
     return command.patch || command.weld || command.scale || !command.region.empty() ||
            !command.renumber.empty() || command.boundary || command.reverse || command.split;
 }
 
 int convert(const ConvertCommand& command) {
+    const io::FilesRead read;
     if (converts_filling(command.in, command.out, command.to)) {
-        if (edits(command)) {
+        if (edits(command) || has_choices(command)) {
             throw UsageError{
-                fmt::format("{}: a filling in space-time is converted as it is, without a choice of parts or "
-                            "edits",
+                fmt::format("{}: a filling in space-time is converted as it is, without a choice of parts, "
+                            "edits, --linear, --encoding, --version, --pieces or --four-dimensional",
                             command.in)};
         }
-        convert_filling(command.in, command.from, command.out, command.to);
+        convert_filling({command.in, command.from, command.out, command.to, read});
         return 0;
     }
     const io::Format& from = format_to_read(command.in, command.from);
@@ -188,7 +210,7 @@ int convert(const ConvertCommand& command) {
     const std::vector<std::string> lost_numbers = io::lost_numbers(soup);
     settle_numbers(soup);
     edit(command, soup);
-    Output output{command, to};
+    Output output{command, to, read};
     if (command.split) {
         write_parts(command, soup, output);
     } else {

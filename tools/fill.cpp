@@ -8,9 +8,11 @@
 #include "slabhull/cases/report.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/io/files_read.h"
 #include "slabhull/slab/fill.h"
 #include "slabhull/slab/filling_quality.h"
 
+#include <array>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -118,10 +120,12 @@ int fill(const FillCommand& command) {
     ProgressDisplay display{progress_form(command.progress, false)};
     const ProgressScope shown{display.for_work()};
     enter_stage("reading");
+    const io::FilesRead read;
     if (command.method == "march" && command.time_scale > 0) {
         throw UsageError{"--time-scale is for --method tetgen: an extrusion has its levels"};
     }
     io::Soup soup = read_named(command.hull, command.from);
+    read.require_none(std::array{std::filesystem::path{command.out}});
     const MeshKind kind = kind_of(soup);
     if (!kind.hull) {
         throw UsageError{fmt::format(
@@ -151,7 +155,7 @@ void add_fill(CLI::App& program, int& exit_code) {
     app->add_option(
            "--time-scale", command->time_scale,
            "With tetgen: the length that a unit of time counts for; by default a layer lasts an edge")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     app->add_option("--pentatope-code", command->file.pentatope_code,
                     "Of MFEM files in four dimensions: 6 (CFOSLS, older), 7 (2021) or 8 (later)")
         ->check(CLI::Range(6, 8));

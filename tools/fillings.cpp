@@ -5,11 +5,14 @@
 #include "slabhull/cases/filling_files.h"
 #include "slabhull/cases/hull_files.h"
 #include "slabhull/cases/report.h"
+#include "slabhull/core/error.h"
+#include "slabhull/io/formats.h"
 #include "slabhull/topology/adjacency.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace slabhull::tools {
@@ -65,13 +68,74 @@ Array<std::int64_t> point_numbers(const io::Soup& mesh, const char* name) {
     return numbers;
 }
 
+/// Caps have the ids of vertices, and one time.
+bool is_cap(const io::Soup& mesh) {
+    const io::DataArray* time = mesh.find_field_data("time");
+    const auto* values = time == nullptr ? nullptr : std::get_if<Array<double>>(&time->values);
+    return values != nullptr && values->size() == 1 && mesh.find_point_data("vertex_id") != nullptr;
+}
+
+void require_filling(const io::Soup& mesh) {
+    const bool hull = kind_of(mesh).hull;
+    if (hull || is_cap(mesh)) {
+        throw InputError{
+            fmt::format("{}: the {} of a slab, but the formats getfem and h5 are for fillings; {}", mesh.path,
+                        hull ? "hull" : "cap",
+                        hull ? "slabhull fill makes one of it"
+                             : "convert it to a format of meshes, such as .vtu or .msh")};
+    }
+}
+
+/// What is not taken of a mesh. Facets become attributes, if they are the outer ones.
+std::vector<std::string> not_taken(const io::Soup& mesh, bool facets) {
+    io::Format taken;
+    taken.features.groups = true;
+    taken.features.group_names = false;
+    if (facets) {
+        taken.features.min_lower_dimension = 2;
+    }
+    taken.features.stores_array = [](const io::Soup&, io::ArrayAssociation, const io::DataArray& array,
+                                     const io::WriteOptions&) {
+        return array.name == "vertex_id" || array.name == "track_id" || array.name == "neighbors" ||
+               array.name == "time";
+    };
+    return io::losses(taken, mesh, {});
+}
+
+/// What was taken, but is not in files of the format.
+std::vector<std::string> not_held(const io::SpaceTimeSoup& soup, const std::string& format) {
+    std::vector<std::string> lost;
+    if (!soup.vertex_id.empty() && (format == "mfem" || format == "getfem")) {
+        lost.emplace_back("point data vertex_id, track_id");
+    }
+    if (!soup.facet_attribute.empty() && format == "vtu") {
+        lost.emplace_back("attributes of facets");
+    }
+    return lost;
+}
+
+std::string title_of(const std::string& format) {
+    return format == "h5"       ? "HDF5"
+           : format == "getfem" ? "GetFEM"
+                                : std::string{io::format_named(format)->title};
+}
+
 template<int D>
-void write(io::SpaceTimeSoup& soup, const std::string& out, const std::string& to) {
-    const std::string format = filling_format(out, to, D);
+void write(const FillingConversion& conversion, io::SpaceTimeSoup& soup, std::vector<std::string> lost) {
+    const std::string format = filling_format(conversion.out, conversion.to, D);
+    const std::vector<std::string> also_lost = not_held(soup, format);
+    lost.insert(lost.end(), also_lost.begin(), also_lost.end());
     const Filling<D> filling = filling_to_write<D>(soup);
     io::AtomicFiles files;
-    write_filling<D>(files, out, filling, format);
+    write_filling<D>(files, conversion.out, filling, format);
+    conversion.read.require_none(files.paths());
+    if (!lost.empty()) {
+        fmt::print(stderr, "slabhull: {}: {} does not hold: {}\n", conversion.out, title_of(format),
+                   fmt::join(lost, "; "));
+    }
     files.commit();
+    fmt::print("{}: {} points, {} {}\n", conversion.out, filling.points.size(), filling.cells.size(),
+               D == 2 ? "tetrahedra" : "pentatopes");
 }
 
 } // namespace
@@ -106,11 +170,19 @@ bool converts_filling(const std::string& in, const std::string& out, const std::
     return io::is_space_time_file(in) || is_of_fillings_only(out, to);
 }
 
-void convert_filling(const std::string& in, const std::string& from, const std::string& out,
-                     const std::string& to) {
-    io::SpaceTimeSoup soup =
-        io::is_space_time_file(in) ? io::read_space_time(in) : filling_of_tetrahedra(read_named(in, from));
-    soup.dimension == 3 ? write<2>(soup, out, to) : write<3>(soup, out, to);
+void convert_filling(const FillingConversion& conversion) {
+    io::SpaceTimeSoup soup;
+    std::vector<std::string> lost;
+    if (io::is_space_time_file(conversion.in)) {
+        soup = io::read_space_time(conversion.in);
+    } else {
+        const io::Soup mesh = read_named(conversion.in, conversion.from);
+        require_filling(mesh);
+        soup = filling_of_tetrahedra(mesh);
+        lost = not_taken(mesh, !soup.facets.empty());
+    }
+    soup.dimension == 3 ? write<2>(conversion, soup, std::move(lost))
+                        : write<3>(conversion, soup, std::move(lost));
 }
 
 } // namespace slabhull::tools

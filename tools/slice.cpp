@@ -7,6 +7,7 @@
 #include "slabhull/cases/report.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/io/files_read.h"
 #include "slabhull/io/space_time_files.h"
 #include "slabhull/slab/slice.h"
 #include "slabhull/slab/slice_filling.h"
@@ -26,7 +27,7 @@ namespace {
 struct SliceCommand {
     std::vector<std::string> files;
     std::string from;
-    std::string time;
+    std::optional<std::string> time;
     std::string times;
     std::string out;
     bool json = false;
@@ -76,8 +77,8 @@ std::vector<double> parse_range(const std::vector<std::string_view>& parts) {
 
 /// Ascending, each once.
 std::vector<double> times_of(const SliceCommand& command) {
-    if (!command.time.empty()) {
-        return {parse_time(command.time, "--time")};
+    if (command.time) {
+        return {parse_time(*command.time, "--time")};
     }
     std::vector<double> times;
     if (const auto parts = split(command.times, ':'); parts.size() > 1) {
@@ -188,12 +189,24 @@ public:
         for (const std::string& file : command_.files) {
             cut_file(file);
         }
+        read_.require_none(outputs());
         require_all_cut();
         commit();
         command_.json ? print_json() : print_text();
     }
 
 private:
+    std::vector<std::filesystem::path> outputs() const {
+        std::vector<std::filesystem::path> paths;
+        for (std::size_t k = 0; k < times_.size(); ++k) {
+            paths.push_back(target_.file(k));
+        }
+        if (target_.series()) {
+            paths.push_back(*target_.series());
+        }
+        return paths;
+    }
+
     void cut_file(const std::string& file) {
         if (io::is_space_time_file(file)) {
             return cut_filling_file(file);
@@ -304,7 +317,7 @@ private:
             if (sections_[k].file == nullptr) {
                 throw UsageError{
                     fmt::format("{}: t = {} is in none of the files: {}; give a time in one of them",
-                                command_.time.empty() ? "--times" : "--time", times_[k], spans_)};
+                                command_.time ? "--time" : "--times", times_[k], spans_)};
             }
         }
     }
@@ -342,6 +355,7 @@ private:
         }
     }
 
+    const io::FilesRead read_{};
     const SliceCommand& command_;
     std::vector<double> times_;
     Target target_;

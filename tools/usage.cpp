@@ -3,6 +3,7 @@
 
 #include "slabhull/core/text.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace slabhull::tools {
@@ -45,6 +46,16 @@ std::string hint(const std::string& word, const std::vector<std::string>& known,
 }
 
 } // namespace
+
+CLI::Validator positive_number() {
+    return {[](const std::string& text) {
+                double value = 0;
+                return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
+                           ? std::string{}
+                           : fmt::format("expected a positive number, not {}", text);
+            },
+            "POSITIVE"};
+}
 
 std::string usage_fault(const CLI::App& program, const CLI::ParseError& error) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();

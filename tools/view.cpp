@@ -8,9 +8,11 @@
 #include "slabhull/core/error.h"
 #include "slabhull/core/parallel.h"
 #include "slabhull/io/files.h"
+#include "slabhull/io/files_read.h"
 #include "slabhull/io/space_time_files.h"
 #include "slabhull/view/view_page.h"
 
+#include <array>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -65,6 +67,7 @@ public:
         for (const std::string& file : files_) {
             add(file);
         }
+        read_.require_none(std::array{std::filesystem::path{command_.out}});
         if (std::filesystem::path{command_.out}.has_parent_path()) {
             io::make_folder(std::filesystem::path{command_.out}.parent_path());
         }
@@ -128,6 +131,7 @@ private:
                    1e-6 * static_cast<double>(std::filesystem::file_size(command_.out)));
     }
 
+    const io::FilesRead read_{}; // before the files
     const ViewCommand& command_;
     std::vector<std::string> files_;
     ViewPage page_;
@@ -147,7 +151,7 @@ void add_view(CLI::App& program, int& exit_code) {
     app->add_option("--out", command->out, "The page")->required();
     app->add_option("--most-cells", command->most_cells,
                     "Side cells that the page may have, by default 3000000: larger hulls are thinned")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     app->add_option("--threads", command->threads, "Threads to use; 0 for all cores")
         ->check(CLI::Range(0, 1024));
     app->footer("Example: slabhull view out/ellipsoid/slabs.pvd --out ellipsoid.html");

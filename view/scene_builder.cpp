@@ -145,6 +145,12 @@ void begin_slab(Scene& scene, const std::string& name, const TimeSpan& span,
                                      scene.filled ? "filling" : "hull", scene.dimension)};
     }
     scene.tolerance = std::max(scene.tolerance, span.tolerance());
+    if (!scene.slabs.empty() && span.first < scene.slabs.back().last - scene.tolerance) {
+        throw UsageError{
+            fmt::format("{} begins at t = {:.6g}, before {} ends, at t = {:.6g}; give slabs in the "
+                        "order of their times, each once",
+                        name, span.first, scene.slabs.back().name, scene.slabs.back().last)};
+    }
     const std::size_t side = scene.side_patch.size();
     const std::size_t inside = scene.inside.size() / static_cast<std::size_t>(scene.inside_corners());
     scene.slabs.push_back({name, span.first, span.last, {side, side}, {inside, inside}});

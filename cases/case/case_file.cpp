@@ -273,7 +273,7 @@ private:
             try {
                 case_.split = split_from_name(*name, case_.dimension);
             } catch (const UsageError& error) {
-                table.fail("split", error.what());
+                table.refuse("split", error.what());
             }
         }
         if (table.has("diagonals")) {

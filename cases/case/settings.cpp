@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -26,19 +27,50 @@ std::string nameless_groups(const std::vector<std::string>& names) {
                : "";
 }
 
-PatchNumber number_of(const PatchList& patches, const std::string& name, const char* table) {
-    const PatchNumber number = patch_number(patches, name);
-    if (number == 0) {
+bool is_among(const std::string& format, const std::vector<std::string>& formats) {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
+/// Refuses numbers and names that the files of the case cannot hold: in MSH the caps' groups come after the
+/// patches, and attributes of fillings are 2 + the patch.
+void require_held(const Case& the_case, const PatchList& patches) {
+    constexpr PatchNumber largest = std::numeric_limits<PatchNumber>::max() - 2;
+    const bool msh = is_among("msh", the_case.formats);
+    const bool msh_of_filling = the_case.fill && is_among("msh", the_case.fill->formats);
+    for (const Patch& patch : patches) {
+        if ((msh || the_case.fill) && patch.number > largest) {
+            throw FormatLimit{fmt::format(
+                "patch \"{}\" has the number {}, but {} up to {}, as two more are for the caps; give it a "
+                "smaller number in the mesher{}",
+                patch.name, patch.number, msh ? "MSH files of hulls have numbers" : "fillings have patches",
+                largest, the_case.fill ? "" : ", or write VTU (output.formats)")};
+        }
+        if ((msh || msh_of_filling) && patch.name.find_first_of("\"\n\r") != std::string::npos) {
+            throw FormatLimit{
+                fmt::format("MSH has no place for a double quote or a line end in the name of a "
+                            "group, as in {}; rename it in the mesher, or leave \"msh\" out of "
+                            "{}.formats",
+                            patch.name, msh ? "output" : "fill")};
+        }
+    }
+}
+
+/// All that have the name.
+std::vector<PatchNumber> numbers_of(const PatchList& patches, const std::string& name, const char* table) {
+    std::vector<PatchNumber> numbers = patch_numbers(patches, name);
+    if (numbers.empty()) {
         std::string known;
         std::vector<std::string> names;
         for (const Patch& patch : patches) {
-            names.push_back(patch.name);
-            known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", patch.name);
+            if (std::find(names.begin(), names.end(), patch.name) == names.end()) {
+                names.push_back(patch.name);
+                known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", patch.name);
+            }
         }
         throw UsageError(fmt::format("[{}.{}]: the domain has no patch \"{}\"; it has {}{}{}", table, name,
                                      name, known, nameless_groups(names), did_you_mean(name, names)));
     }
-    return number;
+    return numbers;
 }
 
 template<int D>
@@ -62,12 +94,14 @@ public:
         settings_.adapt.feature_angle = case_.adapt_feature_angle;
         settings_.adapt.distance = case_.adapt_distance;
         for (const auto& [patch, wanted] : case_.adapt_patches) {
-            settings_.adapt.patches[number_of(boundary_.patches(), patch, "adapt")] = wanted;
+            for (const PatchNumber number : numbers_of(boundary_.patches(), patch, "adapt")) {
+                settings_.adapt.patches[number] = wanted;
+            }
         }
         for (const auto& [patch, spec] : case_.motions) {
-            const PatchNumber number = number_of(boundary_.patches(), patch, "motion");
+            const std::vector<PatchNumber> numbers = numbers_of(boundary_.patches(), patch, "motion");
             try {
-                add_motion(number, spec);
+                add_motion(numbers, spec);
             } catch (const UsageError& error) {
                 throw UsageError(fmt::format("[motion.{}]: {}", patch, error.what()));
             }
@@ -80,19 +114,22 @@ public:
     }
 
 private:
-    void add_motion(PatchNumber number, const MotionSpec& spec) {
-        MovingPatch<D>& moving = settings_.motions[number];
+    void add_motion(const std::vector<PatchNumber>& numbers, const MotionSpec& spec) {
+        MovingPatch<D> moving;
         if (spec.is_field()) {
             moving.motion = motion_of<D>(spec, case_);
         } else if (spec.kind == MotionSpec::Kind::stretch) {
-            stretching_.insert(number);
+            stretching_.insert(numbers.begin(), numbers.end());
         } else {
             std::vector<TrackId> tracks(boundary_.vertex_count());
             std::iota(tracks.begin(), tracks.end(), 0);
             DisplacementFiles<D> files = read_displacement_files<D>(
-                spec.displacements, boundary_.start_surface(), tracks, number, {case_.start, case_.end});
+                spec.displacements, boundary_.start_surface(), tracks, numbers, {case_.start, case_.end});
             moving.nodal = std::move(files.motion);
-            matches_[number] = std::move(files.match);
+            matches_[numbers.front()] = std::move(files.match);
+        }
+        for (const PatchNumber number : numbers) {
+            settings_.motions[number] = moving;
         }
     }
 
@@ -107,11 +144,15 @@ private:
     }
 
     void add_projection(const std::string& patch, const ProjectionSpec& spec) {
-        MovingPatch<D>& moving = settings_.motions[number_of(boundary_.patches(), patch, "project")];
+        const std::vector<PatchNumber> numbers = numbers_of(boundary_.patches(), patch, "project");
+        MovingPatch<D> moving = settings_.motions[numbers.front()]; // all of one name have the same motion
         if (moving.motion == nullptr && moving.stretch == nullptr) {
             moving.motion = standing<D>();
         }
         moving.surface = projection_of<D>(spec);
+        for (const PatchNumber number : numbers) {
+            settings_.motions[number] = moving;
+        }
         if (moving.motion != nullptr && !moving.motion->map(case_.start, case_.end)) {
             throw UsageError(fmt::format(
                 "[project.{}]: a projection surface moves with its patch's motion, and a velocity "
@@ -142,6 +183,7 @@ CapOptions cap_options(const Case& the_case) {
 template<int D>
 CaseSettings<D> case_settings(const Case& the_case, const Boundary<D>& boundary) {
     try {
+        require_held(the_case, boundary.patches());
         return SettingsMaker<D>{the_case, boundary}.run();
     } catch (const UsageError& error) {
         if (the_case.file.empty()) {

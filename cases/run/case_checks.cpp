@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/case_checks.h"
 
+#include "cases/run/earlier_run.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/missing_file.h"
 #include "slabhull/io/formats.h"
@@ -9,12 +10,56 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
+#include <functional>
 #include <numbers>
+#include <vector>
 
 namespace slabhull {
 
 namespace {
+
+using FileVisitor = std::function<void(const std::string& key, const std::filesystem::path& file)>;
+
+void visit_files(const std::string& key, const MotionSpec& motion, const FileVisitor& visit) {
+    visit(key + (motion.kind == MotionSpec::Kind::rigid_table ? ".file" : ".table"), motion.table);
+    for (std::size_t k = 0; k < motion.displacements.files.size(); ++k) {
+        visit(fmt::format("{}.files[{}]", key, k), motion.displacements.files[k]);
+    }
+    for (std::size_t k = 0; k < motion.steps.size(); ++k) {
+        visit_files(fmt::format("{}.steps[{}]", key, k), motion.steps[k], visit);
+    }
+}
+
+void visit_files(const Case& the_case, const InitialBodies& bodies, const FileVisitor& visit) {
+    const char* list = the_case.dimension == 3 ? "surfaces" : "curves";
+    for (std::size_t k = 0; k < bodies.files.size(); ++k) {
+        visit(fmt::format("initial.{}[{}].file", list, k), bodies.files[k].file);
+    }
+    if (const auto* outer = std::get_if<BodyFile>(&bodies.outer)) {
+        visit("initial.outer.file", outer->file);
+    }
+}
+
+/// All files that the case names, with their keys; paths are empty where a key is not given.
+void visit_files(const Case& the_case, const FileVisitor& visit) {
+    if (const auto* mesh = std::get_if<InitialMesh>(&the_case.initial)) {
+        visit("initial.mesh", mesh->file);
+    } else {
+        visit_files(the_case, std::get<InitialBodies>(the_case.initial), visit);
+    }
+    for (const auto& [patch, motion] : the_case.motions) {
+        visit_files("motion." + patch, motion, visit);
+    }
+    for (const auto& [patch, projection] : the_case.projections) {
+        visit(fmt::format("project.{}.file", patch), projection.file);
+    }
+}
+
+std::string in_case(const Case& the_case) {
+    return the_case.file.empty() ? "" : the_case.file.string() + ": ";
+}
 
 /// `key` is the file's key in the case file.
 void require_file(const Case& the_case, const std::string& key, const std::filesystem::path& file) {
@@ -25,30 +70,20 @@ void require_file(const Case& the_case, const std::string& key, const std::files
     }
     const int why = folder ? EISDIR : ENOENT;
     throw InputError(fmt::format(
-        "{}{}: {}: cannot be read: {}{}{}", the_case.file.empty() ? "" : the_case.file.string() + ": ", key,
-        file.string(), std::strerror(why), folder ? "" : " (paths in a case file start from its own folder)",
-        look_again(file, why)));
+        "{}{}: {}: cannot be read: {}{}{}", in_case(the_case), key, file.string(), std::strerror(why),
+        folder ? "" : " (paths in a case file start from its own folder)", look_again(file, why)));
 }
 
-void require_files_of_motion(const Case& the_case, const std::string& key, const MotionSpec& motion) {
-    require_file(the_case, key + (motion.kind == MotionSpec::Kind::rigid_table ? ".file" : ".table"),
-                 motion.table);
-    for (std::size_t k = 0; k < motion.displacements.files.size(); ++k) {
-        require_file(the_case, fmt::format("{}.files[{}]", key, k), motion.displacements.files[k]);
+/// Files of the output folder that a run would write over or remove.
+std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator{folder, ignored}) {
+        if (is_file_of_run(entry.path().filename().string())) {
+            files.push_back(entry.path());
+        }
     }
-    for (std::size_t k = 0; k < motion.steps.size(); ++k) {
-        require_files_of_motion(the_case, fmt::format("{}.steps[{}]", key, k), motion.steps[k]);
-    }
-}
-
-void require_files_of_bodies(const Case& the_case, const InitialBodies& bodies) {
-    const char* list = the_case.dimension == 3 ? "surfaces" : "curves";
-    for (std::size_t k = 0; k < bodies.files.size(); ++k) {
-        require_file(the_case, fmt::format("initial.{}[{}].file", list, k), bodies.files[k].file);
-    }
-    if (const auto* outer = std::get_if<BodyFile>(&bodies.outer)) {
-        require_file(the_case, "initial.outer.file", outer->file);
-    }
+    return files;
 }
 
 /// The longest that a layer lasts: the whole slab, where layers follow from the motion.
@@ -82,24 +117,24 @@ void warn_of_turn(const Case& the_case, const std::string& key, const MotionSpec
 } // namespace
 
 void require_files(const Case& the_case) {
-    if (const auto* mesh = std::get_if<InitialMesh>(&the_case.initial)) {
-        require_file(the_case, "initial.mesh", mesh->file);
-    } else {
-        require_files_of_bodies(the_case, std::get<InitialBodies>(the_case.initial));
-    }
-    for (const auto& [patch, motion] : the_case.motions) {
-        require_files_of_motion(the_case, "motion." + patch, motion);
-    }
-    for (const auto& [patch, projection] : the_case.projections) {
-        require_file(the_case, fmt::format("project.{}.file", patch), projection.file);
-    }
+    visit_files(the_case, [&](const std::string& key, const std::filesystem::path& file) {
+        require_file(the_case, key, file);
+    });
+    const std::vector<std::filesystem::path> written = files_of_run(the_case.directory);
+    visit_files(the_case, [&](const std::string& key, const std::filesystem::path& file) {
+        std::error_code ignored;
+        if (std::any_of(written.begin(), written.end(), [&](const std::filesystem::path& output) {
+                return std::filesystem::equivalent(output, file, ignored);
+            })) {
+            throw UsageError(fmt::format("{}{}: {}: the run would write over it; give another folder "
+                                         "(output.directory, --out), or copy the file elsewhere",
+                                         in_case(the_case), key, file.string()));
+        }
+    });
 }
 
 Case case_in_ranks(Case the_case, int ranks) {
-    const auto refuse = [&](const std::string& what) {
-        throw UsageError{
-            fmt::format("{}{}", the_case.file.empty() ? "" : the_case.file.string() + ": ", what)};
-    };
+    const auto refuse = [&](const std::string& what) { throw UsageError{in_case(the_case) + what}; };
     if (the_case.cap_reuse == CapReuse::adapt) {
         refuse("cap.reuse: \"adapt\" does not work in ranks yet: \"move\" does, or run without mpirun");
     }

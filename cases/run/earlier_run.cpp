@@ -59,6 +59,11 @@ void remove_all(const std::vector<std::filesystem::path>& files) {
 
 } // namespace
 
+bool is_file_of_run(const std::string& name) {
+    return slab_of_file(name) || name == checkpoint_name || name == journal_name || name == report_name ||
+           name == slabs_series_name || name == caps_series_name;
+}
+
 void remove_earlier_run(const std::filesystem::path& folder) {
     remove_all({folder / checkpoint_name});
     const auto slabs = static_cast<long>(slabs_of(folder / journal_name));

@@ -6,15 +6,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <iterator>
 #include <utility>
 
 namespace slabhull {
-
-std::string group_name(const PatchList& groups, PatchNumber number) {
-    const auto found = std::find_if(groups.begin(), groups.end(),
-                                    [number](const Patch& group) { return group.number == number; });
-    return found == groups.end() || found->name.empty() ? fmt::format("{}", number) : found->name;
-}
 
 namespace {
 
@@ -63,10 +58,11 @@ io::SimplexBlock cells_of_regions(const io::Soup& soup, const std::vector<std::s
     const std::set<PatchNumber> in_use(physical.begin(), physical.end());
     std::set<PatchNumber> groups;
     for (const std::string& name : regions) {
-        const auto found = std::find_if(in_use.begin(), in_use.end(), [&](PatchNumber number) {
-            return number != 0 && group_name(soup.groups[D], number) == name;
-        });
-        if (found == in_use.end()) {
+        const std::size_t before = groups.size();
+        std::copy_if(
+            in_use.begin(), in_use.end(), std::inserter(groups, groups.end()),
+            [&](PatchNumber number) { return number != 0 && group_name(soup.groups[D], number) == name; });
+        if (groups.size() == before) {
             const std::string known = regions_of(soup, D);
             throw UsageError(fmt::format("[initial] regions: {} has no region \"{}\"; {}{}", soup.path, name,
                                          known.empty()
@@ -74,7 +70,6 @@ io::SimplexBlock cells_of_regions(const io::Soup& soup, const std::vector<std::s
                                              : "give of those that it has, ",
                                          known));
         }
-        groups.insert(*found);
     }
     return rows_in_groups<D>(soup.simplices[D], groups);
 }

@@ -11,10 +11,8 @@
 
 namespace slabhull {
 
-/// A group's name or, where it has none, its number.
-std::string group_name(const PatchList& groups, PatchNumber number);
-
-/// The cells of some groups, by name or number. Throws UsageError for one that the soup does not have.
+/// The cells of all groups that are called so, as group_name() has it. Throws UsageError for one that the
+/// soup does not have.
 template<int D>
 io::SimplexBlock cells_of_regions(const io::Soup& soup, const std::vector<std::string>& regions);
 

@@ -20,7 +20,7 @@ namespace slabhull {
 
 namespace {
 
-/// The vertices of a patch at the start, by ascending track.
+/// The vertices of patches of one name at the start, by ascending track.
 template<int D>
 struct PatchVertices {
     std::string patch;
@@ -29,16 +29,17 @@ struct PatchVertices {
 };
 
 template<int D>
-PatchVertices<D> vertices_of(const Surface<D>& start, std::span<const TrackId> tracks, PatchNumber patch) {
+PatchVertices<D> vertices_of(const Surface<D>& start, std::span<const TrackId> tracks,
+                             std::span<const PatchNumber> patches) {
     std::set<std::pair<TrackId, Index>> used;
     for (std::size_t f = 0; f < start.facets.size(); ++f) {
-        if (start.patch[f] == patch) {
+        if (std::find(patches.begin(), patches.end(), start.patch[f]) != patches.end()) {
             for (const Index v : start.facets[f]) {
                 used.emplace(tracks[v], v);
             }
         }
     }
-    PatchVertices<D> vertices{patch_name(start.patches, patch), {}, {}};
+    PatchVertices<D> vertices{patch_name(start.patches, patches.front()), {}, {}};
     for (const auto& [track, v] : used) {
         vertices.tracks.push_back(track);
         vertices.points.push_back(start.points[v]);
@@ -356,16 +357,16 @@ std::vector<std::filesystem::path> files_of_pattern(const std::filesystem::path&
 
 template<int D>
 DisplacementFiles<D> read_displacement_files(const DisplacementSpec& spec, const Surface<D>& start,
-                                             std::span<const TrackId> tracks, PatchNumber patch,
-                                             const TimeInterval& span) {
-    return SeriesReader<D>{spec, vertices_of<D>(start, tracks, patch)}.run(span);
+                                             std::span<const TrackId> tracks,
+                                             std::span<const PatchNumber> patches, const TimeInterval& span) {
+    return SeriesReader<D>{spec, vertices_of<D>(start, tracks, patches)}.run(span);
 }
 
 template DisplacementFiles<2> read_displacement_files<2>(const DisplacementSpec&, const Surface<2>&,
-                                                         std::span<const TrackId>, PatchNumber,
-                                                         const TimeInterval&);
+                                                         std::span<const TrackId>,
+                                                         std::span<const PatchNumber>, const TimeInterval&);
 template DisplacementFiles<3> read_displacement_files<3>(const DisplacementSpec&, const Surface<3>&,
-                                                         std::span<const TrackId>, PatchNumber,
-                                                         const TimeInterval&);
+                                                         std::span<const TrackId>,
+                                                         std::span<const PatchNumber>, const TimeInterval&);
 
 } // namespace slabhull

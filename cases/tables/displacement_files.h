@@ -19,7 +19,7 @@ struct DisplacementFiles {
     DisplacementMatch match;
 };
 
-/// The motion of a patch by displacement files, one for each time. Every vertex of the patch
+/// The motion of patches of one name by displacement files, one for each time. Every vertex of the patches
 /// needs a row in every file: that of its track where the file has tracks, else the one at its place at the
 /// start. Rows with both must also be at the vertex's place, at the start or displaced. Other rows are passed
 /// over. `tracks` are those of the vertices of `start`.
@@ -31,8 +31,8 @@ struct DisplacementFiles {
 /// Holds 8 D bytes for each vertex of the patch and file. Cost: that of reading and sorting the files.
 template<int D>
 DisplacementFiles<D> read_displacement_files(const DisplacementSpec& spec, const Surface<D>& start,
-                                             std::span<const TrackId> tracks, PatchNumber patch,
-                                             const TimeInterval& span);
+                                             std::span<const TrackId> tracks,
+                                             std::span<const PatchNumber> patches, const TimeInterval& span);
 
 /// The files whose names are that of the pattern with a number instead of its '*', by ascending number.
 /// Throws UsageError when there are none, or two with the same number.

@@ -3,6 +3,7 @@
 
 #include "io/files/file_cursor.h"
 #include "slabhull/core/progress.h"
+#include "slabhull/io/files_read.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -26,6 +27,7 @@ std::size_t whole_pages(std::size_t bytes) {
 } // namespace
 
 FileBytes::FileBytes(const std::filesystem::path& path) : path_{path} {
+    FilesRead::note(path);
     struct stat status {};
     // Non-regular files may have content without a size; small files are not worth huge pages.
     if (::stat(path.c_str(), &status) == 0 &&

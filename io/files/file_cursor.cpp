@@ -4,6 +4,7 @@
 #include "slabhull/core/missing_file.h"
 #include "slabhull/core/progress.h"
 #include "slabhull/core/text.h"
+#include "slabhull/io/files_read.h"
 
 #include <algorithm>
 #include <cctype>
@@ -44,6 +45,7 @@ private:
 } // namespace
 
 Array<char> read_bytes(const std::filesystem::path& path) {
+    FilesRead::note(path);
     const Descriptor file{path};
     struct stat status {};
     if (file.number() < 0 || ::fstat(file.number(), &status) != 0) {

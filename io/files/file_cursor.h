@@ -197,4 +197,15 @@ void FileCursor::numbers(T* out, std::size_t count, const char* what) {
     }
 }
 
+/// That some editors put before UTF-8.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// Skips a byte order mark; to be called at the start of a file.
+inline void pass_byte_order_mark(FileCursor& in) {
+    constexpr std::size_t size = byte_order_mark.size();
+    if (in.remaining() < size || std::string_view{in.take(size, "a line"), size} != byte_order_mark) {
+        in.seek(0);
+    }
+}
+
 } // namespace slabhull::io

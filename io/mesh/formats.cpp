@@ -415,7 +415,7 @@ Soup read_as(const Format& format, const std::filesystem::path& path, const Read
         return format.read(path, options);
     } catch (const InputError& error) {
         const std::string advice = content_advice(path, format.name);
-        if (advice.empty()) {
+        if (advice.empty() || std::string_view{error.what()}.ends_with(advice)) { // surfaces' readers add it
             throw;
         }
         throw InputError(error.what() + advice, error.entities);

@@ -120,9 +120,9 @@ void require_no_global_numbers(const MeshColumns& mesh) {
     for (const auto* arrays : {&mesh.point_data, &mesh.cell_data}) {
         for (const DataColumn& data : *arrays) {
             if (data.name == global_points || data.name == global_cells) {
-                throw UsageError{fmt::format("a mesh with data called \"{}\" cannot be written in pieces, "
-                                             "which have numbers of that name",
-                                             data.name)};
+                throw FormatLimit{fmt::format("a mesh with data called \"{}\" cannot be written in pieces, "
+                                              "which have numbers of that name",
+                                              data.name)};
             }
         }
     }

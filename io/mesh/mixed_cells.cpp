@@ -63,7 +63,21 @@ PatchNumber as_group(std::int64_t value) {
                                                                          : 0;
 }
 
+/// Remarks on numbers that are no group's.
+void remark_on_numbers(Soup& soup, const Integers& groups) {
+    const auto is_none = [](std::int64_t value) { return value != 0 && as_group(value) == 0; };
+    const auto count = std::count_if(groups.begin(), groups.end(), is_none);
+    if (count > 0) {
+        soup.remarks.push_back(fmt::format("{}: {} cells have group numbers that are negative or above {}, "
+                                           "the first {}; they count as in no "
+                                           "group",
+                                           soup.path, count, std::numeric_limits<PatchNumber>::max(),
+                                           *std::find_if(groups.begin(), groups.end(), is_none)));
+    }
+}
+
 void give_groups(Soup& soup, const Integers& groups) {
+    remark_on_numbers(soup, groups);
     const auto names = names_of_patches(soup);
     for (std::size_t d = 0; d < soup.simplices.size(); ++d) {
         SimplexBlock& block = soup.simplices[d];

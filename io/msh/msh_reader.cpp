@@ -30,6 +30,7 @@ public:
     }
 
     Soup read() {
+        pass_byte_order_mark(in_);
         while (!in_.at_end()) {
             read_section();
         }
@@ -38,6 +39,7 @@ public:
         require(elements_read_, "there is no section $Elements");
         list_groups();
         remark_on_groups();
+        remark_on_repeated();
         corners_only_.finish(soup_);
         return std::move(soup_);
     }
@@ -702,6 +704,44 @@ private:
                             soup_.path, count, kinds[d], fmt::join(names, "\", \""),
                             names_[d][first].empty() ? fmt::format("{}", first) : names_[d][first]));
         }
+    }
+
+    /// MSH 2.2 lists a cell once for each of its groups.
+    void remark_on_repeated() {
+        constexpr std::array<const char*, 4> kinds{"points", "lines", "triangles", "tetrahedra"};
+        for (std::size_t d = 0; version_ == Version::v2 && d < soup_.simplices.size(); ++d) {
+            const SimplexBlock& block = soup_.simplices[d];
+            const std::size_t repeated = has_overlapping_groups(block) ? repeated_cells(block, d + 1) : 0;
+            if (repeated > 0) {
+                soup_.remarks.push_back(fmt::format(
+                    "{}: {} {} are listed again for another physical group, as MSH 2.2 does with groups that "
+                    "overlap; leave such groups out, or write version 4.1",
+                    soup_.path, repeated, kinds[d]));
+            }
+        }
+    }
+
+    /// Whether cells of one entity are in several groups, which does not yet mean that cells are repeated.
+    static bool has_overlapping_groups(const SimplexBlock& block) {
+        std::map<std::int32_t, PatchNumber> group_of;
+        for (std::size_t i = 0; i < std::min(block.entity.size(), block.physical.size()); ++i) {
+            if (group_of.try_emplace(block.entity[i], block.physical[i]).first->second != block.physical[i]) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    static std::size_t repeated_cells(const SimplexBlock& block, std::size_t corners) {
+        std::vector<std::array<Index, 4>> cells(block.vertices.size() / corners);
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            cells[i].fill(no_index);
+            std::copy_n(block.vertices.begin() + static_cast<std::ptrdiff_t>(i * corners), corners,
+                        cells[i].begin());
+            std::sort(cells[i].begin(), cells[i].end());
+        }
+        std::sort(cells.begin(), cells.end());
+        return static_cast<std::size_t>(cells.end() - std::unique(cells.begin(), cells.end()));
     }
 
     struct Parent {

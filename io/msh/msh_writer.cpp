@@ -22,9 +22,9 @@ namespace {
 /// Checks a group's name, which MSH puts in double quotes without an escape for them.
 const std::string& quotable(const std::string& name) {
     if (name.find_first_of("\"\n\r") != std::string::npos) {
-        throw UsageError{fmt::format("MSH has no place for a double quote or a line end in the name of a "
-                                     "group, as in {}",
-                                     name)};
+        throw FormatLimit{fmt::format("MSH has no place for a double quote or a line end in the name of a "
+                                      "group, as in {}; rename it, or write VTU",
+                                      name)};
     }
     return name;
 }

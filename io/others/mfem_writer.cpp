@@ -13,6 +13,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <set>
 
 namespace slabhull::io {
 
@@ -82,18 +83,31 @@ void write_found_boundary(TextStream& out, const MeshColumns& mesh) {
     }
 }
 
-/// Attributes are positive: cells without a group get the number after the largest.
+/// A number that no group has: the one after the largest or, where there is none, the smallest.
+PatchNumber free_number(const std::vector<MeshColumns::Group>& groups) {
+    std::set<PatchNumber> used{0};
+    for (const MeshColumns::Group& group : groups) {
+        used.insert(group.number);
+    }
+    if (*used.rbegin() < std::numeric_limits<PatchNumber>::max()) {
+        return *used.rbegin() + 1;
+    }
+    PatchNumber number = 1;
+    while (used.contains(number)) {
+        ++number;
+    }
+    return number;
+}
+
+/// Attributes are positive: cells without a group get a number of their own.
 void write_elements(TextStream& out, const char* section, int dimension, const Column<std::int64_t>& cells,
                     const std::vector<MeshColumns::Group>& given) {
     const std::vector<MeshColumns::Group> groups = checked_groups(cells, given, "write_mfem");
-    PatchNumber largest = 0;
-    for (const MeshColumns::Group& group : groups) {
-        largest = std::max(largest, group.number);
-    }
+    const PatchNumber of_none = free_number(groups);
     out.put(fmt::format("\n{}\n{}\n", section, cells.rows()));
     for (const MeshColumns::Group& group : groups) {
-        const std::string head = fmt::format("{} {} ", group.number > 0 ? group.number : largest + 1,
-                                             mfem_simplex_type(dimension));
+        const std::string head =
+            fmt::format("{} {} ", group.number > 0 ? group.number : of_none, mfem_simplex_type(dimension));
         for_each_row(cells, group.begin, group.end, [&](std::size_t, const std::int64_t* vertices) {
             out.put(head);
             out.numbers(vertices, static_cast<std::size_t>(dimension) + 1, '\n');

@@ -145,7 +145,7 @@ public:
 
     void write() {
         if (mesh_.dimension < 2) {
-            throw UsageError(fmt::format(
+            throw FormatLimit(fmt::format(
                 "{}: TetGen's files hold triangles or tetrahedra, not lines; write VTU", stem_.string()));
         }
         write_nodes();
@@ -308,10 +308,10 @@ void write_tetgen(AtomicFiles& files, const std::filesystem::path& path, const M
     };
     const bool known = among(of_tetrahedra) || among(of_triangles);
     if (known && !(mesh.dimension == 3 ? among(of_tetrahedra) : among(of_triangles))) {
-        throw UsageError(fmt::format("{}: has no place for {}; TetGen keeps them in files called {}",
-                                     path.string(), mesh.dimension == 3 ? "tetrahedra" : "these cells",
-                                     mesh.dimension == 3 ? ".node and .ele"
-                                                         : ".node, .face, .smesh and .poly, if triangles"));
+        throw FormatLimit(fmt::format("{}: has no place for {}; TetGen keeps them in files called {}",
+                                      path.string(), mesh.dimension == 3 ? "tetrahedra" : "these cells",
+                                      mesh.dimension == 3 ? ".node and .ele"
+                                                          : ".node, .face, .smesh and .poly, if triangles"));
     }
     const auto stem = known ? std::filesystem::path{path}.replace_extension() : path;
     TetgenWriter{files, stem, extension == ".poly" ? ".poly" : ".smesh", mesh}.write();

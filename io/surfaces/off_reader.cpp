@@ -56,6 +56,18 @@ void read_face(TextLine line, SurfaceBuilder& surface, std::vector<Index>& corne
     }
 }
 
+/// Comments and empty lines may follow.
+void require_end(FileCursor& in, std::size_t faces) {
+    while (!in.at_end()) {
+        const TextLine line{in};
+        if (!line.at_end()) {
+            line.fail(fmt::format("more follows after the {} faces that the file says it has; correct the "
+                                  "counts, or export it anew",
+                                  faces));
+        }
+    }
+}
+
 } // namespace
 
 void read_off(FileBytes& file, SurfaceBuilder& surface) {
@@ -73,6 +85,7 @@ void read_off(FileBytes& file, SurfaceBuilder& surface) {
     for (std::size_t i = 0; i < faces; ++i) {
         read_face(next_line(in, "a face"), surface, corners);
     }
+    require_end(in, faces);
 }
 
 } // namespace slabhull::io

@@ -84,13 +84,14 @@ public:
         const std::size_t size = in_.remaining();
         const std::string_view head{in_.take(std::min(size, head_size), "the head"),
                                     std::min(size, head_size)};
-        const bool has_name = is(head.substr(0, 5), "solid");
+        const std::size_t start = head.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+        const bool has_name = is(head.substr(start, 5), "solid");
         const auto count = size < head_size ? 0 : load<std::uint32_t>(head.data() + head_size - 4, false);
         const std::uint64_t binary_size = head_size + std::uint64_t{facet_size} * count;
         if (size == binary_size) { // the only safe test: binary files may also start with "solid"
             read_binary();
         } else if (has_name) {
-            in_.seek(0);
+            in_.seek(start);
             in_.set_binary(false);
             read_text();
         } else {

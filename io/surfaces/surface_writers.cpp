@@ -22,8 +22,8 @@ namespace {
 
 void require_triangles(const MeshColumns& mesh, const char* format) {
     if (mesh.dimension != 2) {
-        throw UsageError(fmt::format("{} files hold triangles, but this mesh has {}; write VTU or MSH",
-                                     format, mesh.dimension == 3 ? "tetrahedra" : "lines"));
+        throw FormatLimit(fmt::format("{} files hold triangles, but this mesh has {}; write VTU or MSH",
+                                      format, mesh.dimension == 3 ? "tetrahedra" : "lines"));
     }
 }
 

@@ -11,15 +11,6 @@
 
 namespace slabhull::io {
 
-/// Skips the byte order mark that some editors put before UTF-8; to be called at the start of a file.
-inline void pass_byte_order_mark(FileCursor& in) {
-    constexpr std::string_view mark = "\xEF\xBB\xBF";
-    if (in.remaining() < mark.size() ||
-        std::string_view{in.take(mark.size(), "a line"), mark.size()} != mark) {
-        in.seek(0);
-    }
-}
-
 /// The words of one line of a file. The cursor is already past the line, which stays in memory.
 class TextLine {
 public:

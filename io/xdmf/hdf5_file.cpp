@@ -6,6 +6,7 @@
 #include "slabhull/core/error.h"
 #include "slabhull/core/text.h"
 #include "slabhull/io/files.h"
+#include "slabhull/io/files_read.h"
 
 #include <algorithm>
 #include <array>
@@ -354,6 +355,7 @@ struct Hdf5Dataset::Impl {
 };
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) {
+    FilesRead::note(path);
     const std::uint64_t bytes = size_of_file(path);
     const auto open = [&] {
         const Silence silence;

@@ -1,15 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slabhull/core/error.h"
 #include "slabhull/topology/filling.h"
 #include "slabhull/topology/hull.h"
+
+#include <fmt/format.h>
+#include <limits>
 
 namespace slabhull {
 
 /// Copies from a hull to its filling: facets with attributes, ids and tracks of the hull's vertices. Needs
-/// the filling's points.
+/// the filling's points. Throws FormatLimit for a patch whose attribute is beyond 32 bits.
 template<int D>
 void describe_hull(const Hull<D>& hull, Filling<D>& filling) {
+    constexpr PatchNumber largest = std::numeric_limits<FacetAttribute>::max() - 2;
+    for (const Patch& patch : hull.patches) {
+        if (patch.number > largest) {
+            throw FormatLimit{
+                fmt::format("patch \"{}\" has the number {}, but fillings have patches up to {}: "
+                            "facets get 2 more; give it a smaller number in the mesher",
+                            patch.name, patch.number, largest)};
+        }
+    }
     filling.facets = hull.cells;
     filling.facet_attribute.resize(hull.cells.size());
     for (std::size_t c = 0; c < hull.cells.size();) {

@@ -33,6 +33,20 @@ Surface<3> scaled_surface(const Hull<2>& hull, double time_scale) {
     return surface;
 }
 
+/// Refusals say how time was scaled, which they may be due to.
+CapMesh<3> mesh_scaled(const Hull<2>& hull, double time_scale) {
+    CapOptions meshing;
+    meshing.blocks = 1;
+    try {
+        return mesh_cap<3>(scaled_surface(hull, time_scale), meshing);
+    } catch (const GeometryError& error) {
+        throw GeometryError{
+            fmt::format("{}. A unit of time counts for the length {:g} there: another time scale may help",
+                        error.what(), time_scale),
+            error.entities};
+    }
+}
+
 } // namespace
 
 Filling<2> fill_unstructured(const Hull<2>& hull, StageClock& clock, const UnstructuredFill& options) {
@@ -40,9 +54,7 @@ Filling<2> fill_unstructured(const Hull<2>& hull, StageClock& clock, const Unstr
         throw UsageError{fmt::format("the time scale must be positive, not {}", options.time_scale)};
     }
     const double time_scale = options.time_scale > 0 ? options.time_scale : usual_time_scale(hull);
-    CapOptions meshing;
-    meshing.blocks = 1;
-    CapMesh<3> mesh = mesh_cap<3>(scaled_surface(hull, time_scale), meshing);
+    CapMesh<3> mesh = mesh_scaled(hull, time_scale);
     clock.book("filling");
     Filling<2> filling;
     filling.points = std::move(mesh.points);

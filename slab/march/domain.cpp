@@ -15,6 +15,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace slabhull {
@@ -63,13 +64,15 @@ Facet<D> ascending_facet(Facet<D> facet) {
     return facet;
 }
 
-/// Entities at fault, by the user's numbers.
+/// Entities at fault, each once, by the user's numbers.
 class Culprits {
 public:
     Culprits(const char* kind, const std::vector<std::int64_t>& numbers) : kind_{kind}, numbers_{numbers} {}
 
     void add(std::size_t i) {
-        found_.push_back(numbers_.empty() ? static_cast<std::int64_t>(i) : numbers_[i]);
+        if (added_.insert(i).second) {
+            found_.push_back(numbers_.empty() ? static_cast<std::int64_t>(i) : numbers_[i]);
+        }
     }
 
     /// Throws if there are any: "<where>: <count> <what>: <the first numbers><advice>".
@@ -88,6 +91,7 @@ public:
 private:
     const char* kind_;
     const std::vector<std::int64_t>& numbers_;
+    std::set<std::size_t> added_;
     std::vector<std::int64_t> found_;
 };
 

@@ -140,7 +140,7 @@ DisplacementSpec csv_series(const scratch::Folder& folder, const Domain<D>& doma
 
 template<int D>
 DisplacementFiles<D> read(const DisplacementSpec& spec, const Domain<D>& domain, TimeInterval span = {0, 1}) {
-    return read_displacement_files<D>(spec, domain.surface, domain.tracks, plate, span);
+    return read_displacement_files<D>(spec, domain.surface, domain.tracks, std::array{plate}, span);
 }
 
 /// The largest distance of the plate's vertices from where the bending has them.

@@ -326,6 +326,20 @@ TEMPLATE_TEST_CASE_SIG("Scaling multiplies caps and what is enclosed by the powe
     CHECK(bytes_of(soup) == bytes_of(hull_soup<D>()));
 }
 
+TEST_CASE("A patch's name takes all patches that have it", "[slab]") {
+    io::Soup soup = hull_soup<2>();
+    io::Soup side = soup;
+    select_region(side, 1);
+    for (io::DataArray& array : soup.field_data) {
+        if (auto* names = std::get_if<std::vector<std::string>>(&array.values); array.name == "patch_name") {
+            REQUIRE(names->size() > 1);
+            std::fill(names->begin(), names->end(), "one");
+        }
+    }
+    select_patch(soup, "one");
+    CHECK(cell_count(soup) == cell_count(side));
+}
+
 TEMPLATE_TEST_CASE_SIG("Renumbering keeps the set of simplices with their data, and adjacency", "[slab]",
                        ((int D), D), 2, 3) {
     const io::Soup soup = hull_soup<D>();

@@ -234,6 +234,30 @@ TEST_CASE("What is written as MSH comes back bit for bit", "[io]") {
     }
 }
 
+TEST_CASE("A name that MSH cannot quote is refused, and no file appears", "[io]") {
+    const scratch::Folder folder;
+    const specimens::Grid grid{2, 1};
+    for (const char* name : {"a\"b", "a\nb"}) {
+        io::MeshColumns mesh = grid.columns();
+        mesh.groups = {{0, mesh.cells.rows(), 1, name}};
+        CHECK_THROWS_AS(io::write_msh(folder / "a.msh", mesh), FormatLimit);
+        CHECK(folder.file_count() == 0);
+    }
+}
+
+TEST_CASE("A byte order mark before an MSH or STL file is skipped", "[io]") {
+    const scratch::Folder folder;
+    const std::string mark = "\xEF\xBB\xBF";
+    const specimens::Grid grid{2, 1};
+    io::write_msh(folder / "a.msh", grid.columns(), {io::MshVersion::v4_1, true});
+    scratch::put(folder / "b.msh", mark + scratch::bytes_of(folder / "a.msh"));
+    CHECK(io::read_mesh(folder / "b.msh").points == io::read_mesh(folder / "a.msh").points);
+    scratch::put(folder / "c.stl", mark +
+                                       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                                       "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n");
+    CHECK(io::read_mesh(folder / "c.stl").points.size() == 3);
+}
+
 TEST_CASE("A mesh without groups is one block without a name", "[io]") {
     const scratch::Folder folder;
     const specimens::Grid grid{3, 2};

@@ -90,8 +90,8 @@ TEST_CASE("A triangle whose corners are in line has the normal zero", "[io]") {
 TEST_CASE("What a surface file cannot hold is refused, and no file appears", "[io]") {
     const scratch::Folder folder;
     for (const char* name : {"a.stl", "a.off", "a.obj", "a.ply"}) {
-        CHECK_THROWS_AS(io::write_surface(folder / name, specimens::Grid(3, 1).columns()), UsageError);
-        CHECK_THROWS_AS(io::write_surface(folder / name, specimens::Grid(1, 1).columns()), UsageError);
+        CHECK_THROWS_AS(io::write_surface(folder / name, specimens::Grid(3, 1).columns()), FormatLimit);
+        CHECK_THROWS_AS(io::write_surface(folder / name, specimens::Grid(1, 1).columns()), FormatLimit);
     }
     CHECK_THROWS_AS(io::write_surface(folder / "a.xyz", specimens::Grid(2, 1).columns()), UsageError);
     const std::vector<Point<3>> far{{0, 0, 0}, {1e39, 0, 0}, {0, 1, 0}};

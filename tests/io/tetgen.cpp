@@ -256,7 +256,7 @@ TEST_CASE("TetGen's files appear all or not at all, and lines are refused", "[io
     const scratch::Folder folder;
     std::filesystem::create_directory(folder / "a.ele"); // which no file can replace
     CHECK_THROWS_AS(io::write_tetgen(folder / "a", specimens::Grid{3, 1}.columns()), OutputError);
-    CHECK_THROWS_AS(io::write_tetgen(folder / "b", specimens::Grid{1, 1}.columns()), UsageError);
+    CHECK_THROWS_AS(io::write_tetgen(folder / "b", specimens::Grid{1, 1}.columns()), FormatLimit);
     CHECK(folder.file_count() == 1);
 }
 
@@ -269,9 +269,9 @@ TEST_CASE("TetGen files of cells that their name does not fit, or beside those o
         files.commit();
     };
     for (const char* name : {"a.face", "a.smesh", "a.poly"}) {
-        CHECK_THROWS_AS(write(name, 3), UsageError);
+        CHECK_THROWS_AS(write(name, 3), FormatLimit);
     }
-    CHECK_THROWS_AS(write("a.ele", 2), UsageError);
+    CHECK_THROWS_AS(write("a.ele", 2), FormatLimit);
     CHECK(folder.file_count() == 0);
     write("a.ele", 3);
     CHECK_THROWS_AS(write("a.node", 2), OutputError); // a.ele would be read with its points

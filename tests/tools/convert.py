@@ -197,7 +197,7 @@ class Ways(ConvertTest):
         (self.dir / "d.face").mkdir()
         self.refused_arguments(5, ["d.face"], ROOM, self.dir / "d.node")
         self.assertEqual([path.name for path in self.dir.glob("d.*")], ["d.face"])
-        self.refused_arguments(2, ["e.smesh", ".ele"], ROOM, self.dir / "e.smesh")
+        self.refused_arguments(5, ["e.smesh", ".ele"], ROOM, self.dir / "e.smesh")
 
     @needs_formats("medit", "mfem", "tetgen")
     def test_lower_simplices_and_groups_go_through_medit_mfem_and_tetgen(self):
@@ -237,7 +237,7 @@ class Parts(ConvertTest):
         self.assertEqual(len(result.err.splitlines()), 1)
 
     def test_a_split_that_fails_leaves_nothing(self):
-        self.refused_arguments(2, ["STL", "tetrahedra"], ROOM, self.dir / "room.stl", "--split-output")
+        self.refused_arguments(5, ["STL", "tetrahedra"], ROOM, self.dir / "room.stl", "--split-output")
         single = self.dir / "one.off"
         single.write_text("OFF\n3 1 0\n0 0 1\n1 0 1\n0 1 1\n3 0 1 2\n")
         self.refused_arguments(2, ["--split-output", "neither regions nor patches"], single,

@@ -168,6 +168,9 @@ class Filling(ProgramTest):
             self.assertNotEqual(few["counts"]["cells"], slab["fill"]["cells"])
         self.refused(self.case(still + '[fill]\nmethod = "tetgen"\ntime_scale = 0\n'), 2, "time_scale")
         self.refused(self.case(ELLIPSOID.format("A") + '[fill]\nmethod = "tetgen"\n'), 2, "2D+t")
+        result = slabhull("fill", out / "slab_0000.vtu", self.dir / "f.vtu", "--method", "tetgen", "--time-scale", 1e-9)
+        self.assertEqual(result.code, 4)
+        self.assertIn("another time scale", result.err)
         for options in (("--time-scale", 2), ("--method", "tetgen", "--time-scale", -1)):
             self.assertEqual(slabhull("fill", out / "slab_0000.vtu", self.dir / "f.vtu", *options).code, 2)
         solid, _ = self.build(self.case(ELLIPSOID.format("A").replace("slabs = 2", "slabs = 1")), out="solid")

@@ -704,6 +704,42 @@ mistake("A filling in a format that holds none", command="fill run/slab_0000.vtu
         says='run.vtk: "vtk" is no format of a filling in 2D+t; ',
         todo="there are mfem, getfem, h5, vtu, msh (--to)")
 
+mistake("A time scale of nothing", command="fill run/slab_0000.vtu fill.vtu --method tetgen --time-scale 0", needs="run",
+        says="fill: --time-scale: ",
+        todo="expected a positive number, not 0; slabhull fill --help says how it is called")
+
+mistake("A hull in place of its filling", command="check run/slab_0000.vtu --hull run/slab_0000.vtu", needs="run",
+        says="run/slab_0000.vtu: the hull of a slab, no filling, which --hull compares with the hull that it fills; ",
+        todo="leave --hull out to check it by itself")
+
+mistake("An output in place of the input", command="convert run/slab_0000.vtu run/slab_0000.vtu --scale 2", needs="run",
+        says="run/slab_0000.vtu: is read, so it is not written over; ",
+        todo="give the output another name")
+
+mistake("Tetrahedra into a format of surfaces", command="convert one.msh one.off", files={"one.msh": TETRAHEDRON}, code=OUTPUT,
+        says="one.off: OFF has no place for tetrahedra; ",
+        todo="give --extract-boundary for their surface")
+
+mistake("A surface with more rows than it says", case=SOLID, files={"ball.off": ball() + "3 0 1 2\n"}, code=INPUT,
+        says="ball.off: line 17: more follows after the 8 faces that the file says it has; ",
+        todo="correct the counts, or export it anew")
+
+mistake("An empty surface", command="info ball.off", files={"ball.off": ""}, code=INPUT,
+        says="ball.off: line 1: the file ends where OFF was expected; the file is empty: ",
+        todo="write it again")
+
+mistake("Groups that overlap, in MSH 2.2", case=PLATE, code=INPUT,
+        files={"plate.msh": SQUARE.replace("\n6\n1 1", "\n8\n1 1").replace(
+            "$EndElements", "7 2 2 6 1 1 2 3\n8 2 2 6 1 1 3 4\n$EndElements")},
+        says="warning: plate.msh: 2 triangles are listed again for another physical group, as MSH 2.2 does with groups that "
+             "overlap; ",
+        todo="leave such groups out, or write version 4.1\n"
+             "slabhull: plate.msh: 4 cells meet in a facet of three or more: 5, 6, 7, 8")
+
+mistake("A split of another dimension", case=CIRCLE + '[side]\nsplit = "A"\n',
+        says='case.toml: line 5: side.split: no split "A" for dimension 2; ',
+        todo='there are "diagonal", "centre"')
+
 mistake("A comparison with a file that is no hull", command="check plate.msh --hull plate.msh", files={"plate.msh": SQUARE},
         says="--hull: plate.msh is not a hull in 2D+t; ",
         todo="give the one that was filled (slab_0000.vtu)")

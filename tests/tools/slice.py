@@ -221,7 +221,7 @@ class Refusals(SliceTest):
                                     ("--time", "-1e-9", ["none of the files"]), ("--times", "0:1", ["first:last"]),
                                     ("--times", "0:1:1", ["2 to"]), ("--times", "0:1:1e9", ["2 to"]),
                                     ("--times", "0:1:3", ["t = 1", "from 0 to 0.5"]), ("--times", "0,,1", ["\"\""]),
-                                    ("--times", "", [])):
+                                    ("--time", "", ["--time: expected"]), ("--times", "", [])):
             self.refuse(2, words, hull, option, time, *out)
         self.refuse(2, [], hull, *out)
         self.refuse(2, [], hull, "--time", "0.1", "--times", "0,0.1", *out)

@@ -261,6 +261,15 @@ class Files(PageTest):
         page, _ = self.view(odd / "a.vtu")
         self.assertNotIn("<b>&<script>", page.read_text())
 
+    def test_slabs_out_of_order_or_twice_are_refused(self):
+        out, _ = self.build(self.case(CIRCLE))
+        first, second = out / "slab_0000.vtu", out / "slab_0001.vtu"
+        for files in ((second, first), (first, first), (first, second, first)):
+            result = slabhull("view", *files, "--out", self.dir / "page.html")
+            self.assertEqual(result.code, 2, result.err)
+            self.assertIn("give slabs in the order of their times, each once", result.err)
+            self.assertFalse((self.dir / "page.html").exists())
+
     def test_the_same_hull_makes_the_same_page_on_any_number_of_threads(self):
         out, _ = self.build(self.case(SPHERE))
         pages = [self.view(out / "slabs.pvd", options=["--threads", threads])[0].read_bytes() for threads in (1, 2)]

@@ -13,15 +13,17 @@ namespace slabhull {
 template<int D>
 struct CaseSettings {
     SlabSettings<D> slab;
-    std::map<PatchNumber, DisplacementMatch> matches; ///< of patches that move by displacement files
+    std::map<PatchNumber, DisplacementMatch>
+        matches; ///< of names that move by displacement files, by the first patch
 };
 
 /// How a case wants its caps meshed.
 CapOptions cap_options(const Case& the_case);
 
 /// The settings that a case gives, for a domain with the given boundary when its motion starts. The
-/// boundary's vertices have the tracks 0, 1 .. in order. Throws UsageError for a motion or projection of a
-/// patch that does not exist, UsageError and InputError for what is wrong with the files of motions.
+/// boundary's vertices have the tracks 0, 1 .. in order; a patch's name stands for all that have it. Throws
+/// UsageError for a motion or projection of a patch that does not exist, UsageError and InputError for what
+/// is wrong with the files of motions, FormatLimit for patches that the case's formats cannot hold.
 template<int D>
 CaseSettings<D> case_settings(const Case& the_case, const Boundary<D>& boundary);
 

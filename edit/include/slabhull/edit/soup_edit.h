@@ -20,8 +20,8 @@ namespace slabhull {
 /// hull with regions, InputError when nothing would be left.
 void select_region(io::Soup& soup, int region);
 
-/// The simplices, of whatever dimension, in the group or on the patch of that name, and the points that they
-/// use. Throws UsageError naming the patches that there are.
+/// The simplices, of whatever dimension, in all groups and on all patches that are called `name`, as
+/// group_name() has it, and the points that they use. Throws UsageError naming the patches that there are.
 void select_patch(io::Soup& soup, const std::string& name);
 
 /// Simplices of a soup that belong together.
@@ -56,6 +56,10 @@ void renumber_along_curve(io::Soup& soup);
 
 /// Multiplies space by `factor`; time stays.
 void scale(io::Soup& soup, double factor);
+
+/// Drops what an adapted hull's cap was held to. To fill the hull, its cap is adapted again, bit for bit,
+/// which needs the hull as it was built. Returns whether there was anything.
+bool drop_adaptation(io::Soup& soup);
 
 /// Turns the orientation of all simplices round by swapping their first two vertices.
 void reverse(io::Soup& soup);

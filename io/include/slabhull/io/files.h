@@ -127,7 +127,8 @@ void write_vtu(const std::filesystem::path& path, const MeshColumns& mesh,
 /// The mesh in pieces for readers that work in parallel: NAME.pvtu names NAME_0.vtu .. beside it, which hold
 /// ranges of cells of nearly equal length, in order, and the points that these use (the last one also those
 /// that none uses). "GlobalPointIds" and "GlobalCellIds" are the numbers in the whole mesh; all other data
-/// are unchanged. The .pvtu gets its name last. Throws UsageError unless each piece gets a cell. Memory:
+/// are unchanged. The .pvtu gets its name last. Throws UsageError unless each piece gets a cell, FormatLimit
+/// for data with these names. Memory:
 /// besides that of write_vtu(), three bits per point.
 void write_pvtu(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh,
                 std::size_t pieces, VtuEncoding encoding = VtuEncoding::raw);
@@ -144,7 +145,8 @@ struct MshOptions {
 /// an entity), `$PhysicalNames` and, in version 4.1, `$Entities`; point data as `$NodeData`, cell data as
 /// `$ElementData`. Reals of 3 or 9 components are one array, all others become name_0, name_1 ... Throws
 /// FormatLimit for counts beyond the format's, which are 32 bits except for nodes and elements of version
-/// 4.1, and std::invalid_argument if the groups do not contain all cells in order.
+/// 4.1, and for names with a double quote or a line end; std::invalid_argument if the groups do not contain
+/// all cells in order.
 void write_msh(const std::filesystem::path& path, const MeshColumns& mesh, const MshOptions& options = {});
 /// The mesh in pieces for readers that work in parallel, as Gmsh splits a partitioned mesh: for NAME.msh the
 /// files NAME_1.msh .., each the part of one partition, binary 4.1. Pieces are those of write_pvtu(); a lower
@@ -178,7 +180,7 @@ void write_xdmf(const std::filesystem::path& path, const MeshColumns& mesh);
 /// Data become attributes, with names and types in a comment that read_tetgen() understands; point data
 /// "marker", one integer, become the points' markers. Groups of tetrahedra become an attribute that
 /// read_tetgen() turns into groups again. A triangle's marker is its "marker", else "patch", else group; its
-/// other data are left out. Throws UsageError for lines and if the extension of `path` does not fit the
+/// other data are left out. Throws FormatLimit for lines and if the extension of `path` does not fit the
 /// cells, OutputError if an .ele, .neigh or .face of another mesh has the stem.
 void write_tetgen(AtomicFiles& files, const std::filesystem::path& path, const MeshColumns& mesh);
 /// The same for a stem, with .smesh.
@@ -212,7 +214,7 @@ void write_mfem(const std::filesystem::path& path, const MeshColumns& mesh);
 
 /// Surfaces of triangles: STL (binary; coordinates in single precision, vertices repeated by facet), OFF and
 /// OBJ (text, doubles that read back exactly), PLY (binary, doubles). Groups and data are left out. Throws
-/// UsageError for a mesh of other simplices, FormatLimit if counts or, in STL, coordinates are too large.
+/// FormatLimit for a mesh of other simplices and if counts or, in STL, coordinates are too large.
 void write_stl(AtomicFile& file, const MeshColumns& mesh);
 void write_off(AtomicFile& file, const MeshColumns& mesh);
 void write_obj(AtomicFile& file, const MeshColumns& mesh);

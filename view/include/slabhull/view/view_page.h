@@ -34,7 +34,8 @@ public:
     ViewPage& operator=(const ViewPage&) = delete;
 
     /// `name` is what the page calls the slab. Throws InputError for columns that do not fit, coordinates
-    /// that are not finite, and slabs whose dimension or kind differs from that of the ones before.
+    /// that are not finite, UsageError for slabs whose dimension or kind differs from that of the ones
+    /// before, or that begin before the last one ends.
     template<int D>
     void add(const std::string& name, const HullColumns<D>& hull);
     template<int D>
