@@ -2,6 +2,7 @@
 #include "cases/run/case_checks.h"
 
 #include "cases/run/earlier_run.h"
+#include "cases/tables/displacement_files.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/missing_file.h"
 #include "slabhull/io/formats.h"
@@ -22,10 +23,24 @@ namespace {
 
 using FileVisitor = std::function<void(const std::string& key, const std::filesystem::path& file)>;
 
+/// A pattern that no file has is told when its files are read.
+std::vector<std::filesystem::path> files_of(const DisplacementSpec& spec) {
+    if (spec.pattern.empty()) {
+        return spec.files;
+    }
+    try {
+        return files_of_pattern(spec.pattern);
+    } catch (const UsageError&) {
+        return {};
+    }
+}
+
 void visit_files(const std::string& key, const MotionSpec& motion, const FileVisitor& visit) {
     visit(key + (motion.kind == MotionSpec::Kind::rigid_table ? ".file" : ".table"), motion.table);
-    for (std::size_t k = 0; k < motion.displacements.files.size(); ++k) {
-        visit(fmt::format("{}.files[{}]", key, k), motion.displacements.files[k]);
+    const bool by_pattern = !motion.displacements.pattern.empty();
+    const std::vector<std::filesystem::path> displacements = files_of(motion.displacements);
+    for (std::size_t k = 0; k < displacements.size(); ++k) {
+        visit(by_pattern ? key + ".pattern" : fmt::format("{}.files[{}]", key, k), displacements[k]);
     }
     for (std::size_t k = 0; k < motion.steps.size(); ++k) {
         visit_files(fmt::format("{}.steps[{}]", key, k), motion.steps[k], visit);

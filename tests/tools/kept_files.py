@@ -193,6 +193,9 @@ class Inputs(Files):
         for options in ((), ("--dry-run",)):
             self.assertIn("initial.mesh", self.unchanged([cap], USAGE, "build", case, *options))
         self.told("build", case, "--out", self.dir / "other", "--quiet")
+        series = self.case(CIRCLE + '[motion.body]\nkind = "displacement-series"\npattern = "out/cap_*.vtu"\n'
+                           '[output]\ndirectory = "out"\n', "series.toml")
+        self.assertIn("motion.body.pattern", self.unchanged([cap], USAGE, "build", series, "--dry-run"))
 
 
 class Adapted(Files):
