@@ -255,7 +255,7 @@ private:
         }
         if (!first()) {
             leave_cells_on_first(checkpoint.state.cap, *ranks_);
-            start(std::move(checkpoint.state));
+            go_on_from(std::move(checkpoint.state));
             return true;
         }
         remove_unfinished_slab(case_.directory, checkpoint.state.slab);
@@ -266,8 +266,34 @@ private:
                 told_of_layers_ || (slab.contains("layers") && slab["layers"].contains("sound") &&
                                     !slab["layers"]["sound"].get<bool>());
         });
-        start(std::move(checkpoint.state));
+        go_on_from(std::move(checkpoint.state));
         return true;
+    }
+
+    void go_on_from(MarchState<D>&& state) {
+        prepare(state.boundary, state.cap, state.time);
+        require_on_surfaces(state);
+        start(std::move(state));
+    }
+
+    /// A projected patch is where its motion takes its surface from the start, in one layer: another motion
+    /// than before would make it jump there.
+    void require_on_surfaces(const MarchState<D>& state) const {
+        const SlabSettings<D>& slab = settings_->slab;
+        const std::optional<OffSurface> off =
+            farthest_off_surface<D>(state.boundary, state.cap, slab.motions, slab.motion_start, state.time);
+        if (off) {
+            const std::string patch = patch_name(state.cap.patches, off->patch);
+            throw UsageError{
+                fmt::format(
+                    "--resume: the motion or the surface of patch {0} is not what the run began with: "
+                    "at t = {1:.9g} its vertex {2} is {3:.4g} off the surface of project.{0}, which "
+                    "the motion moves from t = {4:.9g} on. Run the case anew, without --resume, or "
+                    "keep the patch's surface and its motion until t = {1:.9g}: a \"rigid-table\" may "
+                    "go on otherwise from there",
+                    patch, state.time, off->vertex, off->distance, case_.start),
+                {{"vertex", off->vertex, patch}}};
+        }
     }
 
     void start(MarchState<D>&& state) {
