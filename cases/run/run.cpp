@@ -19,6 +19,7 @@
 #include "slabhull/core/progress.h"
 #include "slabhull/core/version.h"
 #include "slabhull/io/files.h"
+#include "slabhull/io/folder_lock.h"
 #include "slabhull/slab/caps_ahead.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/check_filling.h"
@@ -181,6 +182,7 @@ public:
         }
         if (first()) {
             io::make_folder(case_.directory);
+            lock_.emplace(case_.directory);
             io::remove_stale_parts(case_.directory);
         }
         meet();
@@ -904,6 +906,7 @@ private:
     const Case& case_;
     const Listener& listener_;
     Communicator* ranks_; ///< nullptr: this process alone
+    std::optional<io::FolderLock> lock_;
     ProgressMeter meter_;
     ProgressScope watched_;
     double file_bytes_per_cell_ = 0;          ///< in the last slab

@@ -119,6 +119,52 @@ class Interrupted(ProgramTest):
                 (out / name).write_bytes(sound)
 
 
+class OneAtATime(ProgramTest):
+    def start(self, *arguments):
+        run = subprocess.Popen([PROGRAM, *map(str, arguments), "--quiet"], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        return run
+
+    def wait_for(self, path, run):
+        while not path.exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.01)
+
+    def test_a_folder_has_one_run_at_a_time(self):
+        case = self.case(CASE.format(dimension=3, experiment="sphere", slabs=100, formats='["vtu"]'))
+        out = self.dir / "out"
+        first = self.start("build", case, "--out", out)
+        self.wait_for(out / "march.state", first)
+        for options in ((), ("--resume",)):
+            second = slabhull("build", case, "--out", out, *options)
+            self.assertEqual(second.code, 2, second.err)
+            self.assertIn(f"{out}: another run is at work in this folder", second.err)
+        self.assertIsNone(first.poll())
+
+    def test_a_killed_run_frees_its_folder_with_its_meshers(self):
+        case = self.case(CASE.format(dimension=3, experiment="sphere", slabs=100, formats='["vtu"]'))
+        out = self.dir / "out"
+        for _ in range(3):
+            run = self.start("build", case, "--out", out, "--resume")
+            self.wait_for(out / "march.state", run)
+            run.kill()
+            run.wait()
+        short = case.read_text().replace("slabs = 100", "slabs = 1")
+        result = slabhull("build", self.case(short), "--out", out, "--quiet")
+        self.assertEqual(result.code, 0, result.err)
+
+    def test_studies_write_into_a_folder_one_at_a_time(self):
+        out = self.dir / "out"
+        first = self.start("study", "ellipsoid", "--out", out)
+        self.wait_for(out, first)
+        time.sleep(0.05)
+        second = slabhull("study", "circle", "--levels", "1", "--out", out, "--quiet")
+        self.assertEqual(second.code, 2, second.err)
+        self.assertIn("another run", second.err)
+
+
 class FullDisk(ProgramTest):
     def test_a_full_disk_loses_nothing_accepted(self):
         case = self.case(CASE.format(dimension=2, experiment="circle", slabs=12, formats='["vtu"]'))
