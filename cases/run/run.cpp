@@ -260,16 +260,67 @@ private:
             go_on_from(std::move(checkpoint.state));
             return true;
         }
+        journal_.emplace(path_of(journal_name), checkpoint.files.journal_size,
+                         checkpoint.files.journal_checksum);
         remove_unfinished_slab(case_.directory, checkpoint.state.slab);
-        journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
-        journal_->each_line([this](const std::string& line) {
-            const Json slab = Json::parse(line);
-            told_of_layers_ =
-                told_of_layers_ || (slab.contains("layers") && slab["layers"].contains("sound") &&
-                                    !slab["layers"]["sound"].get<bool>());
+        each_slab([this](const Json& slab) {
+            const bool sound = slab["layers"]["sound"];
+            told_of_layers_ = told_of_layers_ || !sound;
         });
+        look_for_files();
         go_on_from(std::move(checkpoint.state));
         return true;
+    }
+
+    /// The journal's reports, without that of the initial cap.
+    template<class Visit>
+    void each_slab(const Visit& visit) const {
+        bool initial = true;
+        journal_->each_line([&](const std::string& line) {
+            if (!std::exchange(initial, false)) {
+                visit(report_in(line));
+            }
+        });
+    }
+
+    Json report_in(const std::string& line) const {
+        try {
+            return Json::parse(line);
+        } catch (const Json::exception&) {
+            throw InputError(
+                fmt::format("{}: is damaged: a line is no JSON; start the run anew, without --resume",
+                            path_of(journal_name).string()));
+        }
+    }
+
+    /// Finished slabs may have been moved elsewhere; what is there must be whole.
+    void look_for_files() const {
+        std::vector<std::string> gone;
+        each_slab([&](const Json& slab) {
+            for (const auto& [name, bytes] : slab["files"].items()) {
+                if (!is_whole(path_of(name), bytes)) {
+                    gone.push_back(name);
+                }
+            }
+        });
+        if (!gone.empty()) {
+            listener_.warning(fmt::format("{}: {} files of finished slabs are not there any more, the first "
+                                          "{}; the run goes on without them",
+                                          case_.directory.string(), gone.size(), gone.front()));
+        }
+    }
+
+    /// False for a file that is not there.
+    static bool is_whole(const std::filesystem::path& file, std::uintmax_t bytes) {
+        std::error_code missing;
+        const auto there = std::filesystem::file_size(file, missing);
+        if (!missing && there != bytes) {
+            throw InputError(
+                fmt::format("{}: is damaged: it has {} bytes, and had {} when it was written; start "
+                            "the run anew, without --resume, or remove the file",
+                            file.string(), there, bytes));
+        }
+        return !missing;
     }
 
     void go_on_from(MarchState<D>&& state) {
@@ -433,6 +484,7 @@ private:
     /// Puts the files of a slab in place, and takes it into journal and checkpoint.
     void record(Built& built) {
         Slab<D>& slab = built.slab;
+        const std::size_t files_before = result_.files.size();
         on_all_ranks([&] { commit(built.files); });
         result_.cells += slab.hull_cells();
         result_.points += slab.hull_points();
@@ -447,6 +499,7 @@ private:
         if (built.filled) {
             report["fill"] = built.filled->report;
         }
+        report["files"] = sizes_of_files(files_before);
         const std::string cap = cap_name(slab.hull.slab + 1);
         if (!built.after) {
             march_->accept(std::move(slab));
@@ -454,11 +507,25 @@ private:
         on_all_ranks([&] {
             if (first()) {
                 journal_->append(report.dump());
-                write_checkpoint(path_of(checkpoint_name), built.after ? *built.after : march_->state(),
-                                 {cap, built.files.cap_checksum, journal_->size(), case_.checksum});
+                write_checkpoint(
+                    path_of(checkpoint_name), built.after ? *built.after : march_->state(),
+                    {cap, built.files.cap_checksum, journal_->size(), journal_->checksum(), case_.checksum});
             }
         });
         meter_.end_slab(built.clock);
+    }
+
+    /// The sizes in bytes, by name, of the files written after the first `before`.
+    Json sizes_of_files(std::size_t before) const {
+        Json sizes = Json::object();
+        for (std::size_t k = before; k < result_.files.size(); ++k) {
+            std::error_code unseen; // of another rank, in a shared file system
+            const auto bytes = std::filesystem::file_size(result_.files[k], unseen);
+            if (!unseen) {
+                sizes[result_.files[k].filename().string()] = bytes;
+            }
+        }
+        return sizes;
     }
 
     SoundHull require_sound(const Slab<D>& slab, StageClock& clock) const {
@@ -561,7 +628,7 @@ private:
     /// The first slab is complete and takes the place of what an earlier run may have left.
     void replace_earlier_run() {
         remove_earlier_run(case_.directory);
-        journal_.emplace(path_of(journal_name), 0);
+        journal_.emplace(path_of(journal_name));
         journal_->append(initial_.dump());
     }
 
@@ -864,24 +931,32 @@ private:
     /// Collections for ParaView: the slabs at the times they begin, the caps at theirs.
     void write_series() {
         std::vector<io::SeriesEntry> slabs, caps;
-        bool initial = true;
-        // ParaView opens "vtu" and "pvtu".
-        const auto shown = std::find_if(case_.formats.begin(), case_.formats.end(),
-                                        [](const auto& format) { return format.ends_with("vtu"); });
-        journal_->each_line([&](const std::string& line) {
-            if (!std::exchange(initial, false)) {
-                const Json slab = Json::parse(line);
-                const int number = slab["slab"];
-                if (shown != case_.formats.end()) {
-                    slabs.push_back({slab["time"][0], slab_name(number, *shown)});
-                }
-                caps.push_back({slab["time"][1], cap_name(number + 1)});
-            }
+        each_slab([&](const Json& slab) {
+            const int number = slab["slab"];
+            add_to_series(slabs, slab["time"][0], shown_file(slab));
+            add_to_series(caps, slab["time"][1], cap_name(number + 1));
         });
-        if (shown != case_.formats.end()) {
+        if (!slabs.empty()) {
             add_series(slabs_series_name, slabs);
         }
         add_series(caps_series_name, caps);
+    }
+
+    /// The file of a slab that ParaView opens; empty without.
+    static std::string shown_file(const Json& slab) {
+        const int number = slab["slab"];
+        for (const auto& [name, bytes] : slab["files"].items()) {
+            if (name == slab_name(number, "vtu") || name == slab_name(number, "pvtu")) {
+                return name;
+            }
+        }
+        return {};
+    }
+
+    void add_to_series(std::vector<io::SeriesEntry>& series, double time, const std::string& name) const {
+        if (!name.empty() && std::filesystem::exists(path_of(name))) {
+            series.push_back({time, name});
+        }
     }
 
     void add_series(const char* name, const std::vector<io::SeriesEntry>& entries) {
