@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/case_checks.h"
 
+#include "cases/run/earlier_run.h"
+#include "cases/tables/displacement_files.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/missing_file.h"
 #include "slabhull/io/formats.h"
@@ -10,44 +12,91 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <functional>
 #include <numbers>
 
 namespace slabhull {
 
 namespace {
 
-/// `key` is the file's key in the case file.
-void require_file(const Case& the_case, const std::string& key, const std::filesystem::path& file) {
+/// Is given the key of a file in the case file, and the file.
+using VisitFile = std::function<void(const std::string& key, const std::filesystem::path& file)>;
+
+/// None where the pattern is refused, which is told when its files are read.
+std::vector<std::filesystem::path> files_found_by(const std::filesystem::path& pattern) {
+    try {
+        return pattern.empty() ? std::vector<std::filesystem::path>{} : files_of_pattern(pattern);
+    } catch (const UsageError&) {
+        return {};
+    }
+}
+
+void each_file_of_motion(const std::string& key, const MotionSpec& motion, const VisitFile& visit) {
+    visit(key + (motion.kind == MotionSpec::Kind::rigid_table ? ".file" : ".table"), motion.table);
+    for (std::size_t k = 0; k < motion.displacements.files.size(); ++k) {
+        visit(fmt::format("{}.files[{}]", key, k), motion.displacements.files[k]);
+    }
+    for (const std::filesystem::path& file : files_found_by(motion.displacements.pattern)) {
+        visit(key + ".pattern", file);
+    }
+    for (std::size_t k = 0; k < motion.steps.size(); ++k) {
+        each_file_of_motion(fmt::format("{}.steps[{}]", key, k), motion.steps[k], visit);
+    }
+}
+
+void each_file_of_bodies(const Case& the_case, const InitialBodies& bodies, const VisitFile& visit) {
+    const char* list = the_case.dimension == 3 ? "surfaces" : "curves";
+    for (std::size_t k = 0; k < bodies.files.size(); ++k) {
+        visit(fmt::format("initial.{}[{}].file", list, k), bodies.files[k].file);
+    }
+    if (const auto* outer = std::get_if<BodyFile>(&bodies.outer)) {
+        visit("initial.outer.file", outer->file);
+    }
+}
+
+/// Some may be empty.
+void each_file(const Case& the_case, const VisitFile& visit) {
+    if (const auto* mesh = std::get_if<InitialMesh>(&the_case.initial)) {
+        visit("initial.mesh", mesh->file);
+    } else {
+        each_file_of_bodies(the_case, std::get<InitialBodies>(the_case.initial), visit);
+    }
+    for (const auto& [patch, motion] : the_case.motions) {
+        each_file_of_motion("motion." + patch, motion, visit);
+    }
+    for (const auto& [patch, projection] : the_case.projections) {
+        visit(fmt::format("project.{}.file", patch), projection.file);
+    }
+}
+
+std::string place_of(const Case& the_case, const std::string& key) {
+    return (the_case.file.empty() ? "" : the_case.file.string() + ": ") + key;
+}
+
+void require_there(const Case& the_case, const std::string& key, const std::filesystem::path& file) {
     std::error_code ignored;
     const bool folder = std::filesystem::is_directory(file, ignored);
-    if (file.empty() || (std::filesystem::exists(file, ignored) && !folder)) {
+    if (std::filesystem::exists(file, ignored) && !folder) {
         return;
     }
     const int why = folder ? EISDIR : ENOENT;
     throw InputError(fmt::format(
-        "{}{}: {}: cannot be read: {}{}{}", the_case.file.empty() ? "" : the_case.file.string() + ": ", key,
-        file.string(), std::strerror(why), folder ? "" : " (paths in a case file start from its own folder)",
-        look_again(file, why)));
+        "{}: {}: cannot be read: {}{}{}", place_of(the_case, key), file.string(), std::strerror(why),
+        folder ? "" : " (paths in a case file start from its own folder)", look_again(file, why)));
 }
 
-void require_files_of_motion(const Case& the_case, const std::string& key, const MotionSpec& motion) {
-    require_file(the_case, key + (motion.kind == MotionSpec::Kind::rigid_table ? ".file" : ".table"),
-                 motion.table);
-    for (std::size_t k = 0; k < motion.displacements.files.size(); ++k) {
-        require_file(the_case, fmt::format("{}.files[{}]", key, k), motion.displacements.files[k]);
-    }
-    for (std::size_t k = 0; k < motion.steps.size(); ++k) {
-        require_files_of_motion(the_case, fmt::format("{}.steps[{}]", key, k), motion.steps[k]);
-    }
-}
-
-void require_files_of_bodies(const Case& the_case, const InitialBodies& bodies) {
-    const char* list = the_case.dimension == 3 ? "surfaces" : "curves";
-    for (std::size_t k = 0; k < bodies.files.size(); ++k) {
-        require_file(the_case, fmt::format("initial.{}[{}].file", list, k), bodies.files[k].file);
-    }
-    if (const auto* outer = std::get_if<BodyFile>(&bodies.outer)) {
-        require_file(the_case, "initial.outer.file", outer->file);
+/// The run would replace or remove it: under its own name, or as what that links to.
+void require_kept(const Case& the_case, const std::string& key, const std::filesystem::path& file) {
+    std::error_code ignored;
+    for (const std::filesystem::path& path :
+         {std::filesystem::absolute(file), std::filesystem::canonical(file, ignored)}) {
+        if (is_name_of_run(path.filename().string()) &&
+            std::filesystem::equivalent(path.parent_path(), the_case.directory, ignored)) {
+            throw UsageError(fmt::format(
+                "{}: {}: lies in the folder of the output, {}, where the run replaces or removes files "
+                "of this name; copy it elsewhere, or give another folder with --out",
+                place_of(the_case, key), file.string(), the_case.directory.string()));
+        }
     }
 }
 
@@ -82,17 +131,12 @@ void warn_of_turn(const Case& the_case, const std::string& key, const MotionSpec
 } // namespace
 
 void require_files(const Case& the_case) {
-    if (const auto* mesh = std::get_if<InitialMesh>(&the_case.initial)) {
-        require_file(the_case, "initial.mesh", mesh->file);
-    } else {
-        require_files_of_bodies(the_case, std::get<InitialBodies>(the_case.initial));
-    }
-    for (const auto& [patch, motion] : the_case.motions) {
-        require_files_of_motion(the_case, "motion." + patch, motion);
-    }
-    for (const auto& [patch, projection] : the_case.projections) {
-        require_file(the_case, fmt::format("project.{}.file", patch), projection.file);
-    }
+    each_file(the_case, [&](const std::string& key, const std::filesystem::path& file) {
+        if (!file.empty()) {
+            require_there(the_case, key, file);
+            require_kept(the_case, key, file);
+        }
+    });
 }
 
 Case case_in_ranks(Case the_case, int ranks) {

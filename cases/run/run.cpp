@@ -297,8 +297,9 @@ private:
     void look_for_files() const {
         std::vector<std::string> gone;
         each_slab([&](const Json& slab) {
-            for (const auto& [name, bytes] : slab["files"].items()) {
-                if (!is_whole(path_of(name), bytes)) {
+            for (const Json& file : slab["files"]) {
+                const std::string name = file["name"];
+                if (!is_whole(path_of(name), file["bytes"])) {
                     gone.push_back(name);
                 }
             }
@@ -515,14 +516,14 @@ private:
         meter_.end_slab(built.clock);
     }
 
-    /// The sizes in bytes, by name, of the files written after the first `before`.
+    /// Names and sizes of the files written after the first `before`.
     Json sizes_of_files(std::size_t before) const {
-        Json sizes = Json::object();
+        Json sizes = Json::array();
         for (std::size_t k = before; k < result_.files.size(); ++k) {
             std::error_code unseen; // of another rank, in a shared file system
             const auto bytes = std::filesystem::file_size(result_.files[k], unseen);
             if (!unseen) {
-                sizes[result_.files[k].filename().string()] = bytes;
+                sizes.push_back({{"name", result_.files[k].filename().string()}, {"bytes", bytes}});
             }
         }
         return sizes;
@@ -945,7 +946,8 @@ private:
     /// The file of a slab that ParaView opens; empty without.
     static std::string shown_file(const Json& slab) {
         const int number = slab["slab"];
-        for (const auto& [name, bytes] : slab["files"].items()) {
+        for (const Json& file : slab["files"]) {
+            const std::string name = file["name"];
             if (name == slab_name(number, "vtu") || name == slab_name(number, "pvtu")) {
                 return name;
             }

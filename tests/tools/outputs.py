@@ -43,6 +43,25 @@ class Files(ProgramTest):
             self.assertIn("cap meshing", slab["seconds"])
         self.assertGreater(report["peak_memory"]["bytes"], 0)
 
+    def test_a_case_whose_own_files_the_run_would_replace_is_refused(self):
+        out, _ = self.build(self.case(CIRCLE))
+        (self.dir / "link.vtu").symlink_to(out / "cap_0002.vtu")
+        inside = {p.name: p.read_bytes() for p in out.iterdir()}
+        flat = 'dimension = 2\n[time]\nstart = 1\nend = 2\nlayers = 1\n'
+        other = flat + '[initial]\nmesh = "cap_0000.vtu"\n[motion.body]\nkind = "rotation"\ncentre = [0, 0]\n'
+        shutil.copy(out / "cap_0002.vtu", self.dir / "cap_0000.vtu")
+        for key, text in (("initial.mesh", flat + '[initial]\nmesh = "out/cap_0002.vtu"\n'),
+                          ("initial.mesh", flat + '[initial]\nmesh = "link.vtu"\n'),
+                          ("motion.body.table", other + 'table = "out/march.state"\n')):
+            for options in ((), ("--resume",), ("--dry-run",)):
+                result = slabhull("build", self.case(text), "--out", out, *options)
+                self.assertEqual(result.code, 2, result.err)
+                self.assertIn(f"{key}: ", result.err)
+                self.assertIn("replaces or removes files of this name", result.err)
+        self.assertEqual({p.name: p.read_bytes() for p in out.iterdir()}, inside)
+        again = self.case(flat + '[initial]\nmesh = "out/cap_0002.vtu"\n')
+        self.assertEqual(slabhull("build", again, "--out", self.dir / "next", "--quiet").code, 0)
+
     def test_only_the_formats_asked_for_are_written(self):
         out, _ = self.build(self.case(CIRCLE + '[output]\nformats = ["msh"]\n'))
         self.assertFalse((out / "slab_0000.vtu").exists())
