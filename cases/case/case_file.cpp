@@ -262,6 +262,9 @@ private:
             case_.trajectory.substeps = table.integer("substeps", 1, 1'000'000);
         }
         if (table.has("tolerance")) {
+            if (case_.trajectory.scheme != Scheme::dopri5) {
+                table.fail("tolerance", "scheme = \"dopri5\" with it, the one that chooses its steps");
+            }
             case_.trajectory.tolerance = table.positive("tolerance");
         }
         table.require_all_known();
@@ -293,9 +296,12 @@ private:
             case_.cap_growth = table.positive("growth");
         }
         if (table.has("quality")) {
+            if (case_.dimension == 3 && case_.cap_mesher == SolidMesher::hxt) {
+                table.fail("quality", "nothing for mesher = \"hxt\", which knows no such bound");
+            }
             case_.cap_quality = table.number("quality");
-            if (!(case_.cap_quality >= 1)) {
-                table.fail("quality", "a radius-edge bound of at least 1");
+            if (!(case_.cap_quality >= 1 && case_.cap_quality <= 100)) {
+                table.fail("quality", "a radius-edge bound from 1 to 100");
             }
         }
         if (table.has("order")) {
