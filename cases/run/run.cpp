@@ -722,9 +722,10 @@ private:
                 }
                 if (tangled.good_until - begin < floor) {
                     throw GeometryError(
-                        fmt::format("slab {} would have to be shorter than {:.3g}, the least that "
-                                    "[time] adapt_floor allows:\n{}",
-                                    march_->state().slab, floor, tangled.what()),
+                        fmt::format(
+                            "slab {} would have to be shorter than {:.3g}, the least that "
+                            "[time] adapt_floor allows:\n{}.\nChange the motion, or allow shorter slabs.",
+                            march_->state().slab, floor, tangled.without_advice),
                         tangled.entities);
                 }
                 end = tangled.good_until;
