@@ -350,6 +350,7 @@ private:
             root_.fail("adapt", "[cap] reuse = \"adapt\" with it");
         }
         KeyTable table = root_.table("adapt");
+        require_no_patch_named_as_key(table);
         if (table.has("size")) {
             case_.adapt_size = table.positive("size");
         }
@@ -362,6 +363,18 @@ private:
         }
         read_boundary_adaptation(table);
         table.require_all_known();
+    }
+
+    static void require_no_patch_named_as_key(const KeyTable& table) {
+        const std::vector<std::string> patches = table.table_names();
+        for (const char* key : {"size", "angle", "boundary", "feature_angle", "distance"}) {
+            if (std::find(patches.begin(), patches.end(), key) != patches.end()) {
+                table.fail(key,
+                           "a value, not the table of a patch, for [adapt] has a key of this name: give the "
+                           "patch another one. Facets in no group of a mesh are \"boundary\": put them in "
+                           "a group with a name");
+            }
+        }
     }
 
     void read_boundary_adaptation(KeyTable& table) {

@@ -419,6 +419,7 @@ private:
         meter_.hull_built(built->slab.hull_cells());
         warn_of_layers(built->slab);
         warn_of_halvings(built->slab);
+        warn_of_edges(built->slab);
         built->files.stage.emplace(
             "writing",
             static_cast<std::uint64_t>(file_bytes_per_cell_ * static_cast<double>(built->slab.hull_cells())));
@@ -759,6 +760,24 @@ private:
             listener_.warning(fmt::format("slab {} has {} layers: with fewer, cells of its cap or filling "
                                           "would be inside out or too flat",
                                           slab.hull.slab, slab.layers.layers));
+        }
+    }
+
+    /// Sizes may be out of reach of the operations that the layers have room for. Told at the end, as slabs
+    /// come nearer one after the other.
+    void warn_of_edges(const Slab<D>& slab) const {
+        constexpr double shortest = 0.3; // half of what is aimed at, and twice
+        constexpr double longest = 3.2;
+        if (!slab.adapted || !slab.adapted->report.boundary_ratios || slab.hull.time[1] < case_.end) {
+            return;
+        }
+        const auto& ratios = *slab.adapted->report.boundary_ratios;
+        if (ratios[0] < shortest || ratios[1] > longest) {
+            listener_.warning(
+                fmt::format("edges of the boundary end between {:.3g} and {:.3g} of the lengths that "
+                            "[adapt] asks for, where 0.6 to 1.6 is aimed at: more slabs or layers "
+                            "come nearer, or sizes nearer to the edges at the start",
+                            ratios[0], ratios[1]));
         }
     }
 

@@ -2,6 +2,7 @@
 """What the program writes: the same bytes every time, and the same mesh to every independent reader."""
 import importlib.util
 import json
+import re
 import shutil
 
 import harness
@@ -216,6 +217,19 @@ class Checker(ProgramTest):
         result = slabhull("check", path, "--json")
         self.assertEqual(result.code, 1)
         self.assertIn("disoriented-facet", json.loads(result.out)["defects"])
+
+    def test_times_that_contradict_the_third_coordinate_are_found(self):
+        out, _ = self.build(self.case(CIRCLE))
+        path = out / "slab_0000.vtu"
+        data = bytearray(path.read_bytes())
+        offset = re.search(rb'Name="t"[^>]*offset="(\d+)"', data)
+        length_of_block = 8
+        at = data.index(b"_", data.index(b"<AppendedData")) + 1 + int(offset[1]) + length_of_block
+        data[at + 8 * 17] ^= 1  # the last bit of point 17
+        path.write_bytes(data)
+        result = slabhull("check", path)
+        self.assertEqual(result.code, 3, result.out + result.err)
+        self.assertIn("slab_0000.vtu: point 17 has t = ", result.err)
 
 
 if __name__ == "__main__":
