@@ -40,17 +40,22 @@ Listener listener_with(ProgressDisplay& display) {
     return listener;
 }
 
+std::string title_or_file(const Case& the_case) {
+    return the_case.title.empty() ? the_case.file.string() : the_case.title;
+}
+
 /// Says what the run would do.
 void print_plan(const Case& the_case, const CasePlan& plan) {
-    fmt::print("{}: {}D+t, {} facets on the boundary\n", the_case.title, the_case.dimension, plan.facets);
+    fmt::print("{}: {}D+t, {} facets on the boundary\n", title_or_file(the_case), the_case.dimension,
+               plan.facets);
     for (const PatchPlan& patch : plan.patches) {
         fmt::print("  patch {}: {} facets, {}\n", patch.name, patch.facets,
                    patch.moves ? "moves" : "stands still");
     }
     for (std::size_t k = 0; k < plan.slabs.size(); ++k) {
         const SlabPlan& slab = plan.slabs[k];
-        fmt::print("  slab {} from t = {:.6g} to {:.6g}: {} layers, {:.0f} simplices on the side\n", k,
-                   slab.begin, slab.end, slab.layers, slab.side_simplices);
+        fmt::print("  slab {} from t = {:.6g} to {:.6g}: {} layer{}, {:.0f} simplices on the side\n", k,
+                   slab.begin, slab.end, slab.layers, slab.layers == 1 ? "" : "s", slab.side_simplices);
     }
     fmt::print("  caps of about {:.2g} simplices; about {:.2g} GB of memory and {:.2g} s\n",
                plan.cap_simplices, 1e-9 * plan.bytes, plan.seconds);
@@ -75,9 +80,8 @@ int build(const BuildOptions& options, Communicator* ranks) {
     const RunResult result = run_case(the_case, listener, {options.resume, ranks});
     display.clear();
     if (!options.quiet && first) {
-        fmt::print("{}: {} simplices, {} points, {} slab{}, checked, in {:.1f} s\n",
-                   the_case.title.empty() ? options.case_file : the_case.title, result.cells, result.points,
-                   result.slabs, result.slabs == 1 ? "" : "s", watch.seconds());
+        fmt::print("{}: {} simplices, {} points, {} slab{}, checked, in {:.1f} s\n", title_or_file(the_case),
+                   result.cells, result.points, result.slabs, result.slabs == 1 ? "" : "s", watch.seconds());
         for (const auto& file : result.files) {
             fmt::print("  {}\n", file.string());
         }

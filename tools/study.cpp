@@ -8,6 +8,7 @@
 #include "slabhull/core/parallel.h"
 #include "slabhull/core/progress.h"
 #include "slabhull/io/atomic_file.h"
+#include "slabhull/io/folder_lock.h"
 #include "slabhull/study/study.h"
 
 #include <algorithm>
@@ -214,6 +215,7 @@ int study(const StudyOptions& options) {
         cases_of(options); // all arguments are looked at before anything is written
     const std::filesystem::path directory = options.directory;
     io::make_folder(directory);
+    const io::FolderLock lock{directory};
     ProgressDisplay display{progress_form(options.progress, options.quiet)};
     const ProgressScope shown{display.for_work()};
     std::vector<StudyRow> rows;

@@ -262,6 +262,9 @@ private:
             case_.trajectory.substeps = table.integer("substeps", 1, 1'000'000);
         }
         if (table.has("tolerance")) {
+            if (case_.trajectory.scheme != Scheme::dopri5) {
+                table.fail("tolerance", "scheme = \"dopri5\" with it, the one that chooses its steps");
+            }
             case_.trajectory.tolerance = table.positive("tolerance");
         }
         table.require_all_known();
@@ -293,9 +296,12 @@ private:
             case_.cap_growth = table.positive("growth");
         }
         if (table.has("quality")) {
+            if (case_.dimension == 3 && case_.cap_mesher == SolidMesher::hxt) {
+                table.fail("quality", "nothing for mesher = \"hxt\", which knows no such bound");
+            }
             case_.cap_quality = table.number("quality");
-            if (!(case_.cap_quality >= 1)) {
-                table.fail("quality", "a radius-edge bound of at least 1");
+            if (!(case_.cap_quality >= 1 && case_.cap_quality <= 100)) {
+                table.fail("quality", "a radius-edge bound from 1 to 100");
             }
         }
         if (table.has("order")) {
@@ -344,6 +350,7 @@ private:
             root_.fail("adapt", "[cap] reuse = \"adapt\" with it");
         }
         KeyTable table = root_.table("adapt");
+        require_no_patch_named_as_key(table);
         if (table.has("size")) {
             case_.adapt_size = table.positive("size");
         }
@@ -356,6 +363,18 @@ private:
         }
         read_boundary_adaptation(table);
         table.require_all_known();
+    }
+
+    static void require_no_patch_named_as_key(const KeyTable& table) {
+        const std::vector<std::string> patches = table.table_names();
+        for (const char* key : {"size", "angle", "boundary", "feature_angle", "distance"}) {
+            if (std::find(patches.begin(), patches.end(), key) != patches.end()) {
+                table.fail(key,
+                           "a value, not the table of a patch, for [adapt] has a key of this name: give the "
+                           "patch another one. Facets in no group of a mesh are \"boundary\": put them in "
+                           "a group with a name");
+            }
+        }
     }
 
     void read_boundary_adaptation(KeyTable& table) {

@@ -11,43 +11,40 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
 #include <functional>
 #include <numbers>
-#include <vector>
 
 namespace slabhull {
 
 namespace {
 
-using FileVisitor = std::function<void(const std::string& key, const std::filesystem::path& file)>;
+/// Is given the key of a file in the case file, and the file.
+using VisitFile = std::function<void(const std::string& key, const std::filesystem::path& file)>;
 
-/// A pattern that no file has is told when its files are read.
-std::vector<std::filesystem::path> files_of(const DisplacementSpec& spec) {
-    if (spec.pattern.empty()) {
-        return spec.files;
-    }
+/// None where the pattern is refused, which is told when its files are read.
+std::vector<std::filesystem::path> files_found_by(const std::filesystem::path& pattern) {
     try {
-        return files_of_pattern(spec.pattern);
+        return pattern.empty() ? std::vector<std::filesystem::path>{} : files_of_pattern(pattern);
     } catch (const UsageError&) {
         return {};
     }
 }
 
-void visit_files(const std::string& key, const MotionSpec& motion, const FileVisitor& visit) {
+void each_file_of_motion(const std::string& key, const MotionSpec& motion, const VisitFile& visit) {
     visit(key + (motion.kind == MotionSpec::Kind::rigid_table ? ".file" : ".table"), motion.table);
-    const bool by_pattern = !motion.displacements.pattern.empty();
-    const std::vector<std::filesystem::path> displacements = files_of(motion.displacements);
-    for (std::size_t k = 0; k < displacements.size(); ++k) {
-        visit(by_pattern ? key + ".pattern" : fmt::format("{}.files[{}]", key, k), displacements[k]);
+    for (std::size_t k = 0; k < motion.displacements.files.size(); ++k) {
+        visit(fmt::format("{}.files[{}]", key, k), motion.displacements.files[k]);
+    }
+    for (const std::filesystem::path& file : files_found_by(motion.displacements.pattern)) {
+        visit(key + ".pattern", file);
     }
     for (std::size_t k = 0; k < motion.steps.size(); ++k) {
-        visit_files(fmt::format("{}.steps[{}]", key, k), motion.steps[k], visit);
+        each_file_of_motion(fmt::format("{}.steps[{}]", key, k), motion.steps[k], visit);
     }
 }
 
-void visit_files(const Case& the_case, const InitialBodies& bodies, const FileVisitor& visit) {
+void each_file_of_bodies(const Case& the_case, const InitialBodies& bodies, const VisitFile& visit) {
     const char* list = the_case.dimension == 3 ? "surfaces" : "curves";
     for (std::size_t k = 0; k < bodies.files.size(); ++k) {
         visit(fmt::format("initial.{}[{}].file", list, k), bodies.files[k].file);
@@ -57,48 +54,50 @@ void visit_files(const Case& the_case, const InitialBodies& bodies, const FileVi
     }
 }
 
-/// All files that the case names, with their keys; paths are empty where a key is not given.
-void visit_files(const Case& the_case, const FileVisitor& visit) {
+/// Some may be empty.
+void each_file(const Case& the_case, const VisitFile& visit) {
     if (const auto* mesh = std::get_if<InitialMesh>(&the_case.initial)) {
         visit("initial.mesh", mesh->file);
     } else {
-        visit_files(the_case, std::get<InitialBodies>(the_case.initial), visit);
+        each_file_of_bodies(the_case, std::get<InitialBodies>(the_case.initial), visit);
     }
     for (const auto& [patch, motion] : the_case.motions) {
-        visit_files("motion." + patch, motion, visit);
+        each_file_of_motion("motion." + patch, motion, visit);
     }
     for (const auto& [patch, projection] : the_case.projections) {
         visit(fmt::format("project.{}.file", patch), projection.file);
     }
 }
 
-std::string in_case(const Case& the_case) {
-    return the_case.file.empty() ? "" : the_case.file.string() + ": ";
+std::string place_of(const Case& the_case, const std::string& key) {
+    return (the_case.file.empty() ? "" : the_case.file.string() + ": ") + key;
 }
 
-/// `key` is the file's key in the case file.
-void require_file(const Case& the_case, const std::string& key, const std::filesystem::path& file) {
+void require_there(const Case& the_case, const std::string& key, const std::filesystem::path& file) {
     std::error_code ignored;
     const bool folder = std::filesystem::is_directory(file, ignored);
-    if (file.empty() || (std::filesystem::exists(file, ignored) && !folder)) {
+    if (std::filesystem::exists(file, ignored) && !folder) {
         return;
     }
     const int why = folder ? EISDIR : ENOENT;
     throw InputError(fmt::format(
-        "{}{}: {}: cannot be read: {}{}{}", in_case(the_case), key, file.string(), std::strerror(why),
+        "{}: {}: cannot be read: {}{}{}", place_of(the_case, key), file.string(), std::strerror(why),
         folder ? "" : " (paths in a case file start from its own folder)", look_again(file, why)));
 }
 
-/// Files of the output folder that a run would write over or remove.
-std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& folder) {
+/// The run would replace or remove it: under its own name, or as what that links to.
+void require_kept(const Case& the_case, const std::string& key, const std::filesystem::path& file) {
     std::error_code ignored;
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator{folder, ignored}) {
-        if (is_file_of_run(entry.path().filename().string())) {
-            files.push_back(entry.path());
+    for (const std::filesystem::path& path :
+         {std::filesystem::absolute(file), std::filesystem::canonical(file, ignored)}) {
+        if (is_name_of_run(path.filename().string()) &&
+            std::filesystem::equivalent(path.parent_path(), the_case.directory, ignored)) {
+            throw UsageError(fmt::format(
+                "{}: {}: lies in the folder of the output, {}, where the run replaces or removes files "
+                "of this name; copy it elsewhere, or give another folder with --out",
+                place_of(the_case, key), file.string(), the_case.directory.string()));
         }
     }
-    return files;
 }
 
 /// The longest that a layer lasts: the whole slab, where layers follow from the motion.
@@ -132,24 +131,19 @@ void warn_of_turn(const Case& the_case, const std::string& key, const MotionSpec
 } // namespace
 
 void require_files(const Case& the_case) {
-    visit_files(the_case, [&](const std::string& key, const std::filesystem::path& file) {
-        require_file(the_case, key, file);
-    });
-    const std::vector<std::filesystem::path> written = files_of_run(the_case.directory);
-    visit_files(the_case, [&](const std::string& key, const std::filesystem::path& file) {
-        std::error_code ignored;
-        if (std::any_of(written.begin(), written.end(), [&](const std::filesystem::path& output) {
-                return std::filesystem::equivalent(output, file, ignored);
-            })) {
-            throw UsageError(fmt::format("{}{}: {}: the run would write over it; give another folder "
-                                         "(output.directory, --out), or copy the file elsewhere",
-                                         in_case(the_case), key, file.string()));
+    each_file(the_case, [&](const std::string& key, const std::filesystem::path& file) {
+        if (!file.empty()) {
+            require_there(the_case, key, file);
+            require_kept(the_case, key, file);
         }
     });
 }
 
 Case case_in_ranks(Case the_case, int ranks) {
-    const auto refuse = [&](const std::string& what) { throw UsageError{in_case(the_case) + what}; };
+    const auto refuse = [&](const std::string& what) {
+        throw UsageError{
+            fmt::format("{}{}", the_case.file.empty() ? "" : the_case.file.string() + ": ", what)};
+    };
     if (the_case.cap_reuse == CapReuse::adapt) {
         refuse("cap.reuse: \"adapt\" does not work in ranks yet: \"move\" does, or run without mpirun");
     }

@@ -7,8 +7,8 @@
 
 namespace slabhull {
 
-/// Throws InputError, naming the key, for a file of the case that is not there, UsageError for one that the
-/// run would write over.
+/// Throws InputError, naming the key, for a file of the case that is not there, and UsageError for one that
+/// the run would replace or remove in its folder.
 void require_files(const Case& the_case);
 
 /// The case as so many ranks run it: output in as many pieces, caps in as many blocks unless the case gives

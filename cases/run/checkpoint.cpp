@@ -21,7 +21,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are written as they lie in memory");
 
-constexpr std::string_view magic = "slabhull march 2\n";
+constexpr std::string_view magic = "slabhull march 3\n";
 
 class Packer {
 public:
@@ -175,6 +175,7 @@ void write_checkpoint(const std::filesystem::path& path, const MarchState<D>& st
     out.list(files.cap);
     out.number(files.cap_checksum);
     out.number(files.journal_size);
+    out.number(files.journal_checksum);
     out.number(files.case_checksum);
     pack_patches(out, state.cap.patches);
     out.list(state.cap.boundary_facets);
@@ -199,6 +200,7 @@ Checkpoint<D> read_checkpoint(const std::filesystem::path& path) {
     read.files.cap = in.list<std::string>();
     read.files.cap_checksum = in.number<std::uint32_t>();
     read.files.journal_size = in.number<std::uint64_t>();
+    read.files.journal_checksum = in.number<std::uint32_t>();
     read.files.case_checksum = in.number<std::uint32_t>();
     const auto cap = path.parent_path() / read.files.cap;
     if (io::checksum_of(cap) != read.files.cap_checksum) {

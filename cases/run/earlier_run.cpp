@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/earlier_run.h"
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <regex>
@@ -59,9 +60,9 @@ void remove_all(const std::vector<std::filesystem::path>& files) {
 
 } // namespace
 
-bool is_file_of_run(const std::string& name) {
-    return slab_of_file(name) || name == checkpoint_name || name == journal_name || name == report_name ||
-           name == slabs_series_name || name == caps_series_name;
+bool is_name_of_run(const std::string& name) {
+    const auto beside = {checkpoint_name, journal_name, report_name, slabs_series_name, caps_series_name};
+    return slab_of_file(name) || std::find(beside.begin(), beside.end(), name) != beside.end();
 }
 
 void remove_earlier_run(const std::filesystem::path& folder) {

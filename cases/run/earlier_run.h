@@ -13,8 +13,8 @@ inline constexpr const char* report_name = "report.json";
 inline constexpr const char* slabs_series_name = "slabs.pvd";
 inline constexpr const char* caps_series_name = "caps.pvd";
 
-/// Whether a run may write a file of that name, or remove it.
-bool is_file_of_run(const std::string& name);
+/// Whether a run writes, replaces or removes a file of this name in its folder.
+bool is_name_of_run(const std::string& name);
 
 /// Removes what an earlier run left in a folder, so that its slabs, caps and fillings do not stand beside
 /// those of another: the checkpoint first, for nobody shall go on from it. A file of a slab goes only when

@@ -13,6 +13,7 @@
 #include "slabhull/topology/cell_stretches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <memory>
@@ -294,11 +295,27 @@ IntegerList take_numbers(const io::Soup& soup, std::vector<DataArray>& arrays, c
     return whole_numbers(soup, std::move(taken));
 }
 
+/// In 2D + t the array repeats the third coordinate.
+void require_same_times(const io::Soup& soup, const Array<double>& times) {
+    for (std::size_t v = 0; v < times.size(); ++v) {
+        if (soup.points[v][2] != times[v] && std::isfinite(soup.points[v][2])) {
+            throw InputError(
+                fmt::format("{}: point {} has t = {} in the point array \"t\", and {} as its third "
+                            "coordinate: one of them is damaged",
+                            soup.path, v, times[v], soup.points[v][2]),
+                {{"vertex", static_cast<std::int64_t>(v), {}}});
+        }
+    }
+}
+
 template<int D>
 void require_times(const io::Soup& soup) {
     if (D == 3 && soup_times(soup) == nullptr) {
         throw InputError(
             fmt::format("{}: needs a point array \"t\" of real numbers, one for each point", soup.path));
+    }
+    if (D == 2 && soup_times(soup) != nullptr) {
+        require_same_times(soup, *soup_times(soup));
     }
 }
 

@@ -12,20 +12,29 @@
 
 namespace slabhull {
 
-Journal::Journal(const std::filesystem::path& path, std::uint64_t size) : path_{path}, size_{size} {
+Journal::Journal(const std::filesystem::path& path, std::uint64_t size, std::uint32_t checksum)
+    : path_{path}, size_{size} {
     std::error_code missing;
     const auto there = std::filesystem::file_size(path, missing);
     if (size > 0 && (missing || there < size)) {
-        throw InputError(
-            fmt::format("{}: lacks slabs that the checkpoint counts on; start the run anew, without "
-                        "--resume",
-                        path.string()));
+        refuse("lacks slabs that the checkpoint counts on");
     }
+    require_intact(checksum);
     constexpr mode_t for_all = 0666;
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, for_all);
     if (descriptor_ < 0 || ::ftruncate(descriptor_, static_cast<off_t>(size)) != 0 ||
         ::lseek(descriptor_, 0, SEEK_END) < 0) {
         fail();
+    }
+}
+
+void Journal::require_intact(std::uint32_t checksum) {
+    each_line([this](const std::string& line) {
+        checksum_.add(line.data(), line.size());
+        checksum_.add("\n", 1);
+    });
+    if (checksum_.value() != checksum) {
+        refuse("is damaged: its checksum is wrong");
     }
 }
 
@@ -48,6 +57,7 @@ void Journal::append(const std::string& line) {
         fail();
     }
     size_ += text.size();
+    checksum_.add(text.data(), text.size());
 }
 
 void Journal::each_line(const std::function<void(const std::string&)>& visit) const {
@@ -57,6 +67,10 @@ void Journal::each_line(const std::function<void(const std::string&)>& visit) co
         read += line.size() + 1;
         visit(line);
     }
+}
+
+void Journal::refuse(const char* what) const {
+    throw InputError(fmt::format("{}: {}; start the run anew, without --resume", path_.string(), what));
 }
 
 void Journal::fail() const {

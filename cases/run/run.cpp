@@ -19,6 +19,7 @@
 #include "slabhull/core/progress.h"
 #include "slabhull/core/version.h"
 #include "slabhull/io/files.h"
+#include "slabhull/io/folder_lock.h"
 #include "slabhull/slab/caps_ahead.h"
 #include "slabhull/slab/check.h"
 #include "slabhull/slab/check_filling.h"
@@ -181,6 +182,7 @@ public:
         }
         if (first()) {
             io::make_folder(case_.directory);
+            lock_.emplace(case_.directory);
             io::remove_stale_parts(case_.directory);
         }
         meet();
@@ -255,19 +257,97 @@ private:
         }
         if (!first()) {
             leave_cells_on_first(checkpoint.state.cap, *ranks_);
-            start(std::move(checkpoint.state));
+            go_on_from(std::move(checkpoint.state));
             return true;
         }
+        journal_.emplace(path_of(journal_name), checkpoint.files.journal_size,
+                         checkpoint.files.journal_checksum);
         remove_unfinished_slab(case_.directory, checkpoint.state.slab);
-        journal_.emplace(path_of(journal_name), checkpoint.files.journal_size);
-        journal_->each_line([this](const std::string& line) {
-            const Json slab = Json::parse(line);
-            told_of_layers_ =
-                told_of_layers_ || (slab.contains("layers") && slab["layers"].contains("sound") &&
-                                    !slab["layers"]["sound"].get<bool>());
+        each_slab([this](const Json& slab) {
+            const bool sound = slab["layers"]["sound"];
+            told_of_layers_ = told_of_layers_ || !sound;
         });
-        start(std::move(checkpoint.state));
+        look_for_files();
+        go_on_from(std::move(checkpoint.state));
         return true;
+    }
+
+    /// The journal's reports, without that of the initial cap.
+    template<class Visit>
+    void each_slab(const Visit& visit) const {
+        bool initial = true;
+        journal_->each_line([&](const std::string& line) {
+            if (!std::exchange(initial, false)) {
+                visit(report_in(line));
+            }
+        });
+    }
+
+    Json report_in(const std::string& line) const {
+        try {
+            return Json::parse(line);
+        } catch (const Json::exception&) {
+            throw InputError(
+                fmt::format("{}: is damaged: a line is no JSON; start the run anew, without --resume",
+                            path_of(journal_name).string()));
+        }
+    }
+
+    /// Finished slabs may have been moved elsewhere; what is there must be whole.
+    void look_for_files() const {
+        std::vector<std::string> gone;
+        each_slab([&](const Json& slab) {
+            for (const Json& file : slab["files"]) {
+                const std::string name = file["name"];
+                if (!is_whole(path_of(name), file["bytes"])) {
+                    gone.push_back(name);
+                }
+            }
+        });
+        if (!gone.empty()) {
+            listener_.warning(fmt::format("{}: {} files of finished slabs are not there any more, the first "
+                                          "{}; the run goes on without them",
+                                          case_.directory.string(), gone.size(), gone.front()));
+        }
+    }
+
+    /// False for a file that is not there.
+    static bool is_whole(const std::filesystem::path& file, std::uintmax_t bytes) {
+        std::error_code missing;
+        const auto there = std::filesystem::file_size(file, missing);
+        if (!missing && there != bytes) {
+            throw InputError(
+                fmt::format("{}: is damaged: it has {} bytes, and had {} when it was written; start "
+                            "the run anew, without --resume, or remove the file",
+                            file.string(), there, bytes));
+        }
+        return !missing;
+    }
+
+    void go_on_from(MarchState<D>&& state) {
+        prepare(state.boundary, state.cap, state.time);
+        require_on_surfaces(state);
+        start(std::move(state));
+    }
+
+    /// A projected patch is where its motion takes its surface from the start, in one layer: another motion
+    /// than before would make it jump there.
+    void require_on_surfaces(const MarchState<D>& state) const {
+        const SlabSettings<D>& slab = settings_->slab;
+        const std::optional<OffSurface> off =
+            farthest_off_surface<D>(state.boundary, state.cap, slab.motions, slab.motion_start, state.time);
+        if (off) {
+            const std::string patch = patch_name(state.cap.patches, off->patch);
+            throw UsageError{
+                fmt::format(
+                    "--resume: the motion or the surface of patch {0} is not what the run began with: "
+                    "at t = {1:.9g} its vertex {2} is {3:.4g} off the surface of project.{0}, which "
+                    "the motion moves from t = {4:.9g} on. Run the case anew, without --resume, or "
+                    "keep the patch's surface and its motion until t = {1:.9g}: a \"rigid-table\" may "
+                    "go on otherwise from there",
+                    patch, state.time, off->vertex, off->distance, case_.start),
+                {{"vertex", off->vertex, patch}}};
+        }
     }
 
     void start(MarchState<D>&& state) {
@@ -339,6 +419,7 @@ private:
         meter_.hull_built(built->slab.hull_cells());
         warn_of_layers(built->slab);
         warn_of_halvings(built->slab);
+        warn_of_edges(built->slab);
         built->files.stage.emplace(
             "writing",
             static_cast<std::uint64_t>(file_bytes_per_cell_ * static_cast<double>(built->slab.hull_cells())));
@@ -405,6 +486,7 @@ private:
     /// Puts the files of a slab in place, and takes it into journal and checkpoint.
     void record(Built& built) {
         Slab<D>& slab = built.slab;
+        const std::size_t files_before = result_.files.size();
         on_all_ranks([&] { commit(built.files); });
         result_.cells += slab.hull_cells();
         result_.points += slab.hull_points();
@@ -419,6 +501,7 @@ private:
         if (built.filled) {
             report["fill"] = built.filled->report;
         }
+        report["files"] = sizes_of_files(files_before);
         const std::string cap = cap_name(slab.hull.slab + 1);
         if (!built.after) {
             march_->accept(std::move(slab));
@@ -426,11 +509,25 @@ private:
         on_all_ranks([&] {
             if (first()) {
                 journal_->append(report.dump());
-                write_checkpoint(path_of(checkpoint_name), built.after ? *built.after : march_->state(),
-                                 {cap, built.files.cap_checksum, journal_->size(), case_.checksum});
+                write_checkpoint(
+                    path_of(checkpoint_name), built.after ? *built.after : march_->state(),
+                    {cap, built.files.cap_checksum, journal_->size(), journal_->checksum(), case_.checksum});
             }
         });
         meter_.end_slab(built.clock);
+    }
+
+    /// Names and sizes of the files written after the first `before`.
+    Json sizes_of_files(std::size_t before) const {
+        Json sizes = Json::array();
+        for (std::size_t k = before; k < result_.files.size(); ++k) {
+            std::error_code unseen; // of another rank, in a shared file system
+            const auto bytes = std::filesystem::file_size(result_.files[k], unseen);
+            if (!unseen) {
+                sizes.push_back({{"name", result_.files[k].filename().string()}, {"bytes", bytes}});
+            }
+        }
+        return sizes;
     }
 
     SoundHull require_sound(const Slab<D>& slab, StageClock& clock) const {
@@ -533,7 +630,7 @@ private:
     /// The first slab is complete and takes the place of what an earlier run may have left.
     void replace_earlier_run() {
         remove_earlier_run(case_.directory);
-        journal_.emplace(path_of(journal_name), 0);
+        journal_.emplace(path_of(journal_name));
         journal_->append(initial_.dump());
     }
 
@@ -626,9 +723,10 @@ private:
                 }
                 if (tangled.good_until - begin < floor) {
                     throw GeometryError(
-                        fmt::format("slab {} would have to be shorter than {:.3g}, the least that "
-                                    "[time] adapt_floor allows:\n{}",
-                                    march_->state().slab, floor, tangled.what()),
+                        fmt::format(
+                            "slab {} would have to be shorter than {:.3g}, the least that "
+                            "[time] adapt_floor allows:\n{}.\nChange the motion, or allow shorter slabs.",
+                            march_->state().slab, floor, tangled.without_advice),
                         tangled.entities);
                 }
                 end = tangled.good_until;
@@ -662,6 +760,24 @@ private:
             listener_.warning(fmt::format("slab {} has {} layers: with fewer, cells of its cap or filling "
                                           "would be inside out or too flat",
                                           slab.hull.slab, slab.layers.layers));
+        }
+    }
+
+    /// Sizes may be out of reach of the operations that the layers have room for. Told at the end, as slabs
+    /// come nearer one after the other.
+    void warn_of_edges(const Slab<D>& slab) const {
+        constexpr double shortest = 0.3; // half of what is aimed at, and twice
+        constexpr double longest = 3.2;
+        if (!slab.adapted || !slab.adapted->report.boundary_ratios || slab.hull.time[1] < case_.end) {
+            return;
+        }
+        const auto& ratios = *slab.adapted->report.boundary_ratios;
+        if (ratios[0] < shortest || ratios[1] > longest) {
+            listener_.warning(
+                fmt::format("edges of the boundary end between {:.3g} and {:.3g} of the lengths that "
+                            "[adapt] asks for, where 0.6 to 1.6 is aimed at: more slabs or layers "
+                            "come nearer, or sizes nearer to the edges at the start",
+                            ratios[0], ratios[1]));
         }
     }
 
@@ -836,24 +952,33 @@ private:
     /// Collections for ParaView: the slabs at the times they begin, the caps at theirs.
     void write_series() {
         std::vector<io::SeriesEntry> slabs, caps;
-        bool initial = true;
-        // ParaView opens "vtu" and "pvtu".
-        const auto shown = std::find_if(case_.formats.begin(), case_.formats.end(),
-                                        [](const auto& format) { return format.ends_with("vtu"); });
-        journal_->each_line([&](const std::string& line) {
-            if (!std::exchange(initial, false)) {
-                const Json slab = Json::parse(line);
-                const int number = slab["slab"];
-                if (shown != case_.formats.end()) {
-                    slabs.push_back({slab["time"][0], slab_name(number, *shown)});
-                }
-                caps.push_back({slab["time"][1], cap_name(number + 1)});
-            }
+        each_slab([&](const Json& slab) {
+            const int number = slab["slab"];
+            add_to_series(slabs, slab["time"][0], shown_file(slab));
+            add_to_series(caps, slab["time"][1], cap_name(number + 1));
         });
-        if (shown != case_.formats.end()) {
+        if (!slabs.empty()) {
             add_series(slabs_series_name, slabs);
         }
         add_series(caps_series_name, caps);
+    }
+
+    /// The file of a slab that ParaView opens; empty without.
+    static std::string shown_file(const Json& slab) {
+        const int number = slab["slab"];
+        for (const Json& file : slab["files"]) {
+            const std::string name = file["name"];
+            if (name == slab_name(number, "vtu") || name == slab_name(number, "pvtu")) {
+                return name;
+            }
+        }
+        return {};
+    }
+
+    void add_to_series(std::vector<io::SeriesEntry>& series, double time, const std::string& name) const {
+        if (!name.empty() && std::filesystem::exists(path_of(name))) {
+            series.push_back({time, name});
+        }
     }
 
     void add_series(const char* name, const std::vector<io::SeriesEntry>& entries) {
@@ -878,6 +1003,7 @@ private:
     const Case& case_;
     const Listener& listener_;
     Communicator* ranks_; ///< nullptr: this process alone
+    std::optional<io::FolderLock> lock_;
     ProgressMeter meter_;
     ProgressScope watched_;
     double file_bytes_per_cell_ = 0;          ///< in the last slab

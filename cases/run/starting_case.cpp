@@ -87,10 +87,6 @@ std::string as_key(const std::string& name) {
     return bare ? name : quoted(name);
 }
 
-std::string list(const Point<3>& point, int dimension) {
-    return fmt::format("[{:.6g}]", fmt::join(point.begin(), point.begin() + dimension, ", "));
-}
-
 bool is_flat(const io::Soup& soup) {
     return std::all_of(soup.points.begin(), soup.points.end(), [](const Point<3>& p) { return p[2] == 0; });
 }
@@ -215,6 +211,20 @@ private:
         return extent;
     }
 
+    /// A point with six digits of the bodies' size, however far from the origin they are.
+    std::string list(const Point<3>& point) const {
+        constexpr double usual = 6;
+        constexpr double most = 17; // of a double
+        const Extent extent = all();
+        double farthest = extent.largest_side();
+        for (std::size_t k = 0; k < 3; ++k) {
+            farthest = std::max({farthest, std::abs(extent.low[k]), std::abs(extent.high[k])});
+        }
+        const double more = std::ceil(std::log10(farthest / extent.largest_side()));
+        return fmt::format("[{:.{}g}]", fmt::join(point.begin(), point.begin() + dimension_, ", "),
+                           static_cast<int>(std::min(usual + more, most)));
+    }
+
     /// As far around the bodies as they are large, in round numbers.
     Extent box() const {
         Extent box = all();
@@ -318,16 +328,15 @@ private:
                 line("outer = {}", entry(first));
             } else {
                 const Extent around = box();
-                line("box = {{ min = {}, max = {}, size = {:.2g}, patch = {} }}",
-                     list(around.low, dimension_), list(around.high, dimension_), box_size(),
-                     quoted(std::string{box_patch}));
+                line("box = {{ min = {}, max = {}, size = {:.2g}, patch = {} }}", list(around.low),
+                     list(around.high), box_size(), quoted(std::string{box_patch}));
             }
         }
         line("# Patches:");
         for (const auto& [name, extent] : patches_) {
             line("#   {}: {} {}, from {} to {}, edges of {:.3g}", name, extent.facets,
-                 dimension_ == 2 ? "edges" : "triangles", list(extent.low, dimension_),
-                 list(extent.high, dimension_), extent.mean_edge());
+                 dimension_ == 2 ? "edges" : "triangles", list(extent.low), list(extent.high),
+                 extent.mean_edge());
         }
     }
 
@@ -350,7 +359,7 @@ private:
             if (dimension_ == 3) {
                 line("# axis = [0, 0, 1]");
             }
-            line("# centre = {}", list(extent.centre(), dimension_));
+            line("# centre = {}", list(extent.centre()));
             line("# rate = 0.5               # radians per unit of time");
         }
         line("\n# [project.{}]           # the surface that the patch's vertices are put back on",

@@ -4,6 +4,7 @@
 // result is verified.
 #include "geometry/meshing/solid_mesher.h"
 
+#include "geometry/meshing/cap_limits.h"
 #include "geometry/meshing/hole_seeds.h"
 
 #include "slabhull/core/progress.h"
@@ -25,6 +26,7 @@ namespace slabhull {
 namespace {
 
 constexpr std::int32_t out_of_memory = 1; // TetGen's own number
+constexpr std::int32_t endless = 1000;    // ours
 
 // --- In the child
 // ---------------------------------------------------------------------------------------------
@@ -39,11 +41,23 @@ double squared_distance(const REAL* p, const REAL* q) {
     return x * x + y * y + z * z;
 }
 
+double most_calls = 0;
+
+/// Near a radius-edge bound of 1 refinement never ends: no sound mesh comes near this.
+double most_calls_for(const SizeField<3>& size) {
+    constexpr double generous = 30;
+    constexpr double least = 1e6;
+    return std::max(least, generous * cells_per_cube<3> * size.cube_count());
+}
+
 /// Counts the mesh's cells so far: TetGen asks about four tetrahedra for each three that it keeps.
 void count_call() {
-    static int calls = 0;
+    static std::int64_t calls = 0;
     if (++calls % 4 == 0) {
         work_done(3);
+    }
+    if (static_cast<double>(calls) > most_calls) {
+        throw int{endless}; // as TetGen's own errors are
     }
 }
 
@@ -155,6 +169,7 @@ void mesh_and_send(std::span<const std::byte> request, const Send& send) {
         const auto holes = lists.take<std::vector<Point<3>>>(order.holes);
         const SizeField<3> size{order.size, lists.rest()};
         wanted_size = &size;
+        most_calls = most_calls_for(size);
         auto* input = new TetgenInput{surface, holes};
         auto* mesh = new tetgenio; // neither is deleted: the child ends
         tetrahedralize(order.switches.data(), &input->plc, mesh);
@@ -171,8 +186,13 @@ void mesh_and_send(std::span<const std::byte> request, const Send& send) {
 // --- In the parent
 // ----------------------------------------------------------------------------------------------
 
-std::string thrown_in_words(const MesherHeading& heading) {
+std::string thrown_in_words(const MesherHeading& heading, const CapOptions& options) {
     switch (heading.status) {
+    case endless:
+        return fmt::format(
+            "makes more and more cells and comes to no end with a radius-edge bound of {:g}: give "
+            "a larger one (cap.quality), such as the usual 1.414",
+            options.radius_edge);
     case out_of_memory:
         return "ran out of memory";
     case 3:
@@ -208,7 +228,7 @@ CapMesh<3> fill_with_tetgen(const Boundary<3>& boundary, const Surface<3>& surfa
                           size.box_bytes()};
     return fill_in_child(
         surface, [&](const auto& receive) { return run_in_fresh_child(mesh_and_send, request, receive); },
-        thrown_in_words);
+        [&](const MesherHeading& heading) { return thrown_in_words(heading, options); });
 }
 
 } // namespace slabhull

@@ -13,18 +13,46 @@ namespace slabhull {
 
 namespace {
 
-/// A cell whose measure is below this times its longest edge to the power D has no reliable orientation.
+/// A cell whose measure is below this times its measure_scale() has no reliable orientation.
 constexpr double degenerate = 1e-14;
 
 template<int D, int N>
-double longest_edge(const std::array<Point<N>, D + 1>& corners) {
+double squared_distance_in_space(const Point<N>& p, const Point<N>& q) {
     double square = 0;
+    for (std::size_t k = 0; k < D; ++k) {
+        square += (p[k] - q[k]) * (p[k] - q[k]);
+    }
+    return square;
+}
+
+template<int D, int N>
+double time_between(const Point<N>& p, const Point<N>& q) {
+    return N > D ? std::abs(p[N - 1] - q[N - 1]) : 0;
+}
+
+/// Bounds the products of lengths that a measure sums up, by which its rounding is judged: D differences in
+/// space, or D - 1 of them and one in time. Times and lengths have units of their own, so neither stands for
+/// the other.
+template<int D>
+double measure_scale(double length, double time) {
+    double scale = std::max(length, time);
+    for (int k = 1; k < D; ++k) {
+        scale *= length;
+    }
+    return scale;
+}
+
+template<int D, int N>
+double measure_scale(const std::array<Point<N>, D + 1>& corners) {
+    double square = 0;
+    double time = 0;
     for (std::size_t i = 0; i <= D; ++i) {
         for (std::size_t j = i + 1; j <= D; ++j) {
-            square = std::max(square, squared_distance(corners[i], corners[j]));
+            square = std::max(square, squared_distance_in_space<D, N>(corners[i], corners[j]));
+            time = std::max(time, time_between<D, N>(corners[i], corners[j]));
         }
     }
-    return std::sqrt(square);
+    return measure_scale<D>(std::sqrt(square), time);
 }
 
 /// A quick bound: no edge is longer than twice the longest at the first corner (5 instead of 4 allows for
@@ -32,14 +60,12 @@ double longest_edge(const std::array<Point<N>, D + 1>& corners) {
 template<int D, int N>
 bool is_far_from_degenerate(double measure, const std::array<Point<N>, D + 1>& corners) {
     double square = 0;
+    double time = 0;
     for (std::size_t i = 1; i <= D; ++i) {
-        square = std::max(square, squared_distance(corners[0], corners[i]));
+        square = std::max(square, squared_distance_in_space<D, N>(corners[0], corners[i]));
+        time = std::max(time, time_between<D, N>(corners[0], corners[i]));
     }
-    double scale = degenerate * degenerate;
-    for (int k = 0; k < D; ++k) {
-        scale *= 5 * square;
-    }
-    return measure * measure > scale;
+    return measure * measure > degenerate * degenerate * measure_scale<D>(5 * square, 5 * time * time);
 }
 
 /// Pairs of a vertex and the first one with the same coordinates, ascending.
@@ -133,12 +159,7 @@ bool is_degenerate(const std::array<Point<N>, D + 1>& corners, double measure) {
     if (is_far_from_degenerate<D, N>(measure, corners)) {
         return false;
     }
-    const double edge = longest_edge<D, N>(corners);
-    double scale = degenerate;
-    for (int k = 0; k < D; ++k) {
-        scale *= edge;
-    }
-    return measure <= scale;
+    return measure <= degenerate * measure_scale<D, N>(corners);
 }
 
 template<int D, int N>

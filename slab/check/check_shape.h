@@ -21,7 +21,8 @@ bool check_finite(std::span<const Point<N>> points, Findings& findings);
 template<int N>
 void check_coincident(std::span<const Point<N>> points, Findings& findings);
 
-/// Whether a cell's measure is below 1e-14 of its longest edge to the power D.
+/// Whether a cell's measure is below 1e-14 of its longest edge in space to the power D; where it lasts longer
+/// than that, one factor is its extent in time.
 template<int D, int N>
 bool is_degenerate(const std::array<Point<N>, D + 1>& corners);
 /// The same for a cell whose measure is known.

@@ -123,11 +123,11 @@ public:
         const std::string crossings = crossings_in_words(at(bad_places_), bad_);
         throw TangledBoundary(
             fmt::format(
-                "{}\nThe boundary is good until t = {:.9g}, {:.4g} % of the slab from {:.9g} to {:.9g}: "
-                "end the slab there ([time] adapt = true does), or change the motion.",
+                "{}\nThe boundary is good until t = {:.9g}, {:.4g} % of the slab from {:.9g} to {:.9g}",
                 crossings.empty() ? fault_.what() : crossings, good_, 100 * (good_ - begin) / duration, begin,
                 sweep_.times.back()),
-            fault_.entities, good_, bad_);
+            "end the slab there ([time] adapt = true does), or change the motion.", fault_.entities, good_,
+            bad_);
     }
 
 private:

@@ -49,7 +49,7 @@ std::filesystem::path save(const MarchState<D>& state, const std::filesystem::pa
     write_cap(cap, state.cap, state.time);
     cap.finish();
     cap.commit();
-    write_checkpoint(folder / "march.state", state, {"cap.vtu", cap.checksum(), 17, 4711});
+    write_checkpoint(folder / "march.state", state, {"cap.vtu", cap.checksum(), 17, 42, 4711});
     return folder / "march.state";
 }
 
@@ -71,6 +71,7 @@ TEMPLATE_TEST_CASE_SIG("a march goes on from its checkpoint as if it had not sto
     March<D> march = march_after_a_slab<D>();
     const Checkpoint<D> read = read_checkpoint<D>(save(march.state(), folder.path));
     CHECK(read.files.journal_size == 17);
+    CHECK(read.files.journal_checksum == 42);
     CHECK(read.files.case_checksum == 4711);
     CHECK(read.state.time == march.state().time);
     CHECK(read.state.slab == march.state().slab);

@@ -632,10 +632,24 @@ TEMPLATE_TEST_CASE_SIG("two vertices in one place", "", ((int D), D), 2, 3) {
     CHECK(report.findings[0].entities[1].number == b);
 }
 
+/// Gives times in another unit.
+template<class Claims>
+void scale_times(Claims& claims, double unit) {
+    for (auto& point : claims.points) {
+        point.back() *= unit;
+    }
+    for (double& time : *claims.time) {
+        time *= unit;
+    }
+}
+
 TEMPLATE_TEST_CASE_SIG("a cell without a measure", "", ((int D), D), 2, 3) {
     // A new vertex in the middle of a cell's facet on the side cuts the two cells there, one of the parts
     // flat.
+    const double unit = GENERATE(1.0, 0x1p-30, 0x1p40); // of time: layers much shorter or longer than edges
     auto claims = body_claims<D>();
+    scale_times(claims, unit);
+    REQUIRE(check(claims).clean());
     const Index victim =
         claims.first_cell(Region::intermediate) + 1; // none of its facets is within an instant
     const Simplex<D> cell = claims.cells[victim];

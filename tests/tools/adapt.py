@@ -310,8 +310,23 @@ class Adapted(ProgramTest):
         self.refused(self.case(text.replace("boundary = true", "[adapt.bodi]\nsize = 0.15")), 2, "bodi", "body")
         self.refused(self.case(text.replace("boundary = true", "[adapt.body]\nsizes = 0.15")), 2, "sizes")
         self.refused(self.case(text.replace("boundary = true", "[adapt.body]\nsize = 0")), 2, "size")
+        self.refused(self.case(text.replace("boundary = true", "[adapt.boundary]\nsize = 1")), 2,
+                     "adapt.boundary: expected a value, not the table of a patch", "group with a name")
         self.refused(self.case(text.replace("boundary = true", "feature_angle = 120")), 2, "feature_angle")
         self.refused(self.case(text.replace("boundary = true", "distance = -1")), 2, "distance")
+
+    def test_lengths_that_are_not_reached_are_told(self):
+        case = self.case("""dimension = 2
+initial = { curves = [ { file = "body.dat", patch = "body" } ], box = { min = [-4, -4], max = [4, 4], size = 1 } }
+time = { layers = 2, end = 0.3 }
+motion.body = { kind = "translation", velocity = [1, 0] }
+cap.reuse = "adapt"
+adapt.body.size = 1e-7
+""")
+        (self.dir / "body.dat").write_text("".join(f"{math.cos(k)} {math.sin(k)}\n" for k in range(6)))
+        result = slabhull("build", case, "--out", self.dir / "out")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertRegex(result.err, "edges of the boundary end between .* and .* of the lengths that .adapt. asks for")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ level = 1
 [cap]
 size = 2
 """
-USAGE = 2
+USAGE, GEOMETRY = 2, 4
 
 
 class Caps(ProgramTest):
@@ -42,9 +42,15 @@ class Caps(ProgramTest):
             self.assertIn("SLABHULL_GMSH", result.err)
             self.assertIn("cap.mesher", result.err)
 
+    def test_a_bound_on_quality_that_no_mesh_meets_ends_with_advice(self):
+        result = slabhull("build", self.case(SPHERE + "quality = 1.0\n"), "--out", self.dir / "out", "--quiet")
+        self.assertEqual(result.code, GEOMETRY, result.err)
+        self.assertIn("comes to no end with a radius-edge bound of 1: give a larger one (cap.quality)", result.err)
+
     def test_numbers_of_blocks_and_meshers_that_there_are_not(self):
         for text, word in [("blocks = 0", "cap.blocks"), ("blocks = 4097", "cap.blocks"),
-                           ("blocks = 1.5", "cap.blocks"), ('mesher = "cdt"', "cap.mesher")]:
+                           ("blocks = 1.5", "cap.blocks"), ("quality = 1e9", "cap.quality"),
+                           ('mesher = "hxt"\nquality = 1.4', "cap."), ('mesher = "cdt"', "cap.mesher")]:
             with self.subTest(text):
                 self.refused(self.case(SPHERE + text + "\n"), USAGE, word, "line")
 

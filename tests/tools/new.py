@@ -39,6 +39,19 @@ class New(ProgramTest):
         _, report = self.build(case)
         self.assertEqual(len(report["slabs"]), 4)
 
+    def test_a_body_far_from_the_origin_is_inside_of_its_box(self):
+        lines = (EXAMPLES / "sphere.off").read_text().split("\n")
+        count = int(lines[1].split()[0])
+        for at in (1e6, -5412345.0, 1e9):
+            moved = [" ".join(str(float(x) + at) for x in line.split()) for line in lines[2:2 + count]]
+            (self.dir / "far.off").write_text("\n".join(lines[:2] + moved + lines[2 + count:]))
+            case, _ = self.new(self.dir / "far.off")
+            plan = self.planned(case)
+            self.assertIn("patch far: ", plan)
+            self.assertIn("from t = 0 to 0.25: 1 layer, ", plan)
+            untitled = self.case("\n".join(case.read_text().split("\n")[1:]), "untitled.toml")
+            self.assertTrue(self.planned(untitled).startswith(f"{untitled}: 3D+t, "))
+
     def test_a_mesh_keeps_its_patches(self):
         case, text = self.new(EXAMPLES / "piston.msh")
         self.assertIn("mesh = ", text)

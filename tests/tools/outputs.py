@@ -2,6 +2,7 @@
 """What the program writes: the same bytes every time, and the same mesh to every independent reader."""
 import importlib.util
 import json
+import re
 import shutil
 
 import harness
@@ -42,6 +43,25 @@ class Files(ProgramTest):
             self.assertGreater(slab["angle"]["smallest"], 0)
             self.assertIn("cap meshing", slab["seconds"])
         self.assertGreater(report["peak_memory"]["bytes"], 0)
+
+    def test_a_case_whose_own_files_the_run_would_replace_is_refused(self):
+        out, _ = self.build(self.case(CIRCLE))
+        (self.dir / "link.vtu").symlink_to(out / "cap_0002.vtu")
+        inside = {p.name: p.read_bytes() for p in out.iterdir()}
+        flat = 'dimension = 2\n[time]\nstart = 1\nend = 2\nlayers = 1\n'
+        other = flat + '[initial]\nmesh = "cap_0000.vtu"\n[motion.body]\nkind = "rotation"\ncentre = [0, 0]\n'
+        shutil.copy(out / "cap_0002.vtu", self.dir / "cap_0000.vtu")
+        for key, text in (("initial.mesh", flat + '[initial]\nmesh = "out/cap_0002.vtu"\n'),
+                          ("initial.mesh", flat + '[initial]\nmesh = "link.vtu"\n'),
+                          ("motion.body.table", other + 'table = "out/march.state"\n')):
+            for options in ((), ("--resume",), ("--dry-run",)):
+                result = slabhull("build", self.case(text), "--out", out, *options)
+                self.assertEqual(result.code, 2, result.err)
+                self.assertIn(f"{key}: ", result.err)
+                self.assertIn("replaces or removes files of this name", result.err)
+        self.assertEqual({p.name: p.read_bytes() for p in out.iterdir()}, inside)
+        again = self.case(flat + '[initial]\nmesh = "out/cap_0002.vtu"\n')
+        self.assertEqual(slabhull("build", again, "--out", self.dir / "next", "--quiet").code, 0)
 
     def test_only_the_formats_asked_for_are_written(self):
         out, _ = self.build(self.case(CIRCLE + '[output]\nformats = ["msh"]\n'))
@@ -197,6 +217,19 @@ class Checker(ProgramTest):
         result = slabhull("check", path, "--json")
         self.assertEqual(result.code, 1)
         self.assertIn("disoriented-facet", json.loads(result.out)["defects"])
+
+    def test_times_that_contradict_the_third_coordinate_are_found(self):
+        out, _ = self.build(self.case(CIRCLE))
+        path = out / "slab_0000.vtu"
+        data = bytearray(path.read_bytes())
+        offset = re.search(rb'Name="t"[^>]*offset="(\d+)"', data)
+        length_of_block = 8
+        at = data.index(b"_", data.index(b"<AppendedData")) + 1 + int(offset[1]) + length_of_block
+        data[at + 8 * 17] ^= 1  # the last bit of point 17
+        path.write_bytes(data)
+        result = slabhull("check", path)
+        self.assertEqual(result.code, 3, result.out + result.err)
+        self.assertIn("slab_0000.vtu: point 17 has t = ", result.err)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Projection on surfaces from files: a triangulated surface, a curve, a STEP model; what is refused."""
 import math
+import shutil
 
 import harness
 from harness import ProgramTest, slabhull
@@ -76,6 +77,29 @@ class Files(ProgramTest):
         self.assertGreater(self.worst_distance(self.flat("")), 0.02)
         project = '[project.body]\nsurface = "file"\nfile = "body.dat"\n'
         self.assertLess(self.worst_distance(self.flat(project)), 1e-14)
+
+    def begun(self, case, end, slabs):
+        """Builds half of the slabs of a case; returns the text of the case with all of them."""
+        text = case.read_text() + '[cap]\nreuse = "adapt"\n'
+        times = f"[time]\nend = {end}\nslabs = {slabs}\n"
+        half = f"[time]\nend = {end / 2}\nslabs = {slabs // 2}\n"
+        self.build(self.case(text.replace("[time]\n", half)))
+        return text.replace("[time]\n", times)
+
+    def test_a_resumed_run_goes_on_with_the_same_motion_only(self):
+        octahedron = '[project.body]\nsurface = "file"\nfile = "body.off"\n'
+        diamond = '[project.body]\nsurface = "file"\nfile = "body.dat"\n'
+        for make, project in ((self.solid, octahedron), (self.flat, diamond)):
+            with self.subTest(make.__name__):
+                text = self.begun(make(project), 0.4, 4)
+                changed = self.case(text.replace("rate = 1\n", "rate = 1.05\n"))
+                result = slabhull("build", changed, "--out", self.dir / "out", "--resume")
+                self.assertEqual(result.code, USAGE, result.err)
+                for word in ("--resume", "patch body", "t = 0.2", "off the surface of project.body", "anew"):
+                    self.assertIn(word, result.err)
+                report = self.build(self.case(text), "--resume")[1]
+                self.assertEqual(len(report["slabs"]), 4)
+                shutil.rmtree(self.dir / "out")
 
     def test_a_file_that_is_missing_empty_or_of_an_unknown_kind_is_named(self):
         for name in ("none.stl", "none.step", "none.xyz"):

@@ -2,6 +2,7 @@
 """Runs that are interrupted, by SIGKILL at random moments or by a full disk, and go on as if they had not been."""
 import json
 import random
+import re
 import shutil
 import signal
 import struct
@@ -78,7 +79,7 @@ class Interrupted(ProgramTest):
             return 0
         state = path.read_bytes()
         self.assertEqual(zlib.crc32(state[:-4]), struct.unpack("<I", state[-4:])[0])
-        return struct.unpack_from("<i", state, len(b"slabhull march 1\n") + 4)[0]
+        return struct.unpack_from("<i", state, len(b"slabhull march 3\n") + 4)[0]
 
     def test_fifty_kills_of_a_long_march(self):
         self.killed_runs(2, "expanding-circle", 40, 50, seed=4)
@@ -117,6 +118,92 @@ class Interrupted(ProgramTest):
                 self.assertEqual(result.code, 3, result.err)
                 self.assertIn(name, result.err)
                 (out / name).write_bytes(sound)
+
+    def test_a_flipped_bit_of_the_journal_is_found(self):
+        case, _, _ = self.reference(2, "circle", 2)
+        journal = self.dir / "reference" / "slabs.jsonl"
+        sound = journal.read_bytes()
+        for at in random.Random(8).sample(range(len(sound)), 20):
+            journal.write_bytes(sound[:at] + bytes([sound[at] ^ 1]) + sound[at + 1:])
+            result = slabhull("build", case, "--out", journal.parent, "--resume")
+            self.assertEqual(result.code, 3, result.err)
+            self.assertIn("slabs.jsonl: is damaged: its checksum is wrong; start the run anew", result.err)
+
+    def test_finished_slabs_are_there_and_as_long_as_they_were(self):
+        case, _, _ = self.reference(2, "circle", 2)
+        out = self.dir / "reference"
+        slab = out / "slab_0000.vtu"
+        sound = slab.read_bytes()
+        slab.write_bytes(sound[:100])
+        result = slabhull("build", case, "--out", out, "--resume")
+        self.assertEqual(result.code, 3, result.err)
+        self.assertIn(f"slab_0000.vtu: is damaged: it has 100 bytes, and had {len(sound)}", result.err)
+        slab.unlink()
+        result = slabhull("build", case, "--out", out, "--resume")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("1 files of finished slabs are not there any more, the first slab_0000.vtu", result.err)
+        self.assertNotIn("slab_0000", (out / "slabs.pvd").read_text())
+        self.assertIn("slab_0001.vtu", (out / "slabs.pvd").read_text())
+
+    def test_other_formats_from_here_on_leave_series_of_what_is_there(self):
+        for before, after in (("vtu", "msh"), ("msh", "vtu"), ("vtu", "pvtu")):
+            with self.subTest(before=before, after=after):
+                text = CASE.format(dimension=2, experiment="circle", slabs="{slabs}", formats='["{format}"]')
+                text = text.replace("end = 1.0", "end = 0.{slabs}")
+                out = self.build(self.case(text.format(slabs=2, format=before)), out=before + after)[0]
+                self.build(self.case(text.format(slabs=4, format=after)), "--resume", out=before + after)
+                series = (out / "slabs.pvd").read_text()
+                listed = set(re.findall('file="([^"]*)"', series))
+                self.assertEqual(listed, {f"slab_000{k}.{format}" for k, format in enumerate(2 * [before] + 2 * [after])
+                                          if format != "msh"})
+                for name in listed:
+                    self.assertTrue((out / name).exists())
+
+
+class OneAtATime(ProgramTest):
+    def start(self, *arguments):
+        run = subprocess.Popen([PROGRAM, *map(str, arguments), "--quiet"], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        return run
+
+    def wait_for(self, path, run):
+        while not path.exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.01)
+
+    def test_a_folder_has_one_run_at_a_time(self):
+        case = self.case(CASE.format(dimension=3, experiment="sphere", slabs=100, formats='["vtu"]'))
+        out = self.dir / "out"
+        first = self.start("build", case, "--out", out)
+        self.wait_for(out / "march.state", first)
+        for options in ((), ("--resume",)):
+            second = slabhull("build", case, "--out", out, *options)
+            self.assertEqual(second.code, 2, second.err)
+            self.assertIn(f"{out}: another run is at work in this folder", second.err)
+        self.assertIsNone(first.poll())
+
+    def test_a_killed_run_frees_its_folder_with_its_meshers(self):
+        case = self.case(CASE.format(dimension=3, experiment="sphere", slabs=100, formats='["vtu"]'))
+        out = self.dir / "out"
+        for _ in range(3):
+            run = self.start("build", case, "--out", out, "--resume")
+            self.wait_for(out / "march.state", run)
+            run.kill()
+            run.wait()
+        short = case.read_text().replace("slabs = 100", "slabs = 1")
+        result = slabhull("build", self.case(short), "--out", out, "--quiet")
+        self.assertEqual(result.code, 0, result.err)
+
+    def test_studies_write_into_a_folder_one_at_a_time(self):
+        out = self.dir / "out"
+        first = self.start("study", "ellipsoid", "--out", out)
+        self.wait_for(out, first)
+        time.sleep(0.05)
+        second = slabhull("study", "circle", "--levels", "1", "--out", out, "--quiet")
+        self.assertEqual(second.code, 2, second.err)
+        self.assertIn("another run", second.err)
 
 
 class FullDisk(ProgramTest):

@@ -157,6 +157,8 @@ class InThePlane(TanglingTest):
                 line = "" if floor is None else f"adapt_floor = {floor}\n"
                 message = self.tangles(self.wall_case("slabs = 4\nlayers = 3\nadapt = true\n" + line), out)
                 self.assertIn("adapt_floor", message)
+                self.assertIn("Change the motion, or allow shorter slabs.", message)
+                self.assertNotIn("adapt = true", message)  # it is
                 self.assert_tangles_at(message, TOUCH)
                 slabs = self.slabs(self.dir / out)
                 self.assertGreaterEqual(len(slabs), 3)

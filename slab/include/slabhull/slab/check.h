@@ -40,7 +40,7 @@ enum class Defect {
     euler_mismatch, ///< the hull's Euler characteristic is not the one that follows from its caps (D = 2)
     // Shape
     coincident_vertices,
-    degenerate_cell,    ///< measure below 1e-14 of the longest edge to the power D
+    degenerate_cell,    ///< measure below 1e-14 of what its lengths and its duration allow
     not_closed,         ///< sum of normals is not zero to rounding, though every facet is closed
     inward_orientation, ///< the enclosed measure is not positive
     inverted_cell,      ///< a cap cell facing into its cap; in a spatial mesh, a sign other than most

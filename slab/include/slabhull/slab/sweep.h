@@ -12,6 +12,7 @@
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -69,5 +70,20 @@ template<int D>
 Sweep<D> sweep_boundary(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
                         const PatchMotions<D>& motions, double motion_start, std::vector<double> times,
                         const TrajectoryOptions& options);
+
+/// A vertex that is not on the projection surface of its patch.
+struct OffSurface {
+    PatchNumber patch = 0;
+    Index vertex = 0; ///< of the cap
+    double distance = 0;
+};
+
+/// The vertex of `boundary`, at its place in `cap`, that is farthest off the surface of a patch of its, where
+/// the motion has taken that by `time`; none where all are on theirs, up to the surfaces' tolerances and 1e-6
+/// of the extent. After a slab none is, unless the motion or the surface was changed meanwhile.
+template<int D>
+std::optional<OffSurface> farthest_off_surface(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
+                                               const PatchMotions<D>& motions, double motion_start,
+                                               double time);
 
 } // namespace slabhull

@@ -12,8 +12,12 @@ class Communicator;
 /// facets, by their numbers in the boundary.
 class TangledBoundary : public GeometryError {
 public:
-    TangledBoundary(const std::string& message, std::vector<Entity> facets, double good, double bad)
-        : GeometryError{message, std::move(facets)}, good_until{good}, tangled_at{bad} {}
+    TangledBoundary(const std::string& what, const std::string& advice, std::vector<Entity> facets,
+                    double good, double bad)
+        : GeometryError{what + ": " + advice, std::move(facets)}, without_advice{what}, good_until{good},
+          tangled_at{bad} {}
+
+    std::string without_advice; ///< what(), for those who have ended slabs earlier already
 
     double good_until; ///< the boundary is sound at this time; no earlier level is tangled ...
     double tangled_at; ///< ... and here it is not: at most 1e-3 of the slab later
