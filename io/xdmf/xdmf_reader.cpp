@@ -29,7 +29,7 @@ namespace slabhull::io {
 
 namespace {
 
-constexpr std::uint64_t any_count = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t most_count = std::numeric_limits<std::uint64_t>::max();
 
 std::string_view trimmed(std::string_view text) {
     while (!text.empty() && is_blank(text.front())) {
@@ -180,7 +180,7 @@ private:
             const auto blank = std::find_if(text.begin(), text.end(), is_blank);
             const auto size = static_cast<std::size_t>(blank - text.begin());
             const std::uint64_t extent = parsed_count(item.node, text.substr(0, size));
-            if (extent > 0 && item.count > any_count / extent) {
+            if (extent > 0 && item.count > most_count / extent) {
                 fail(item.node, "its Dimensions are too large");
             }
             item.count *= extent;
@@ -261,15 +261,15 @@ private:
             return;
         }
         const bool known = with_vtk_type(item.type, [&](auto zero) {
-            using Stored = decltype(zero);
+            using Given = decltype(zero);
             FileCursor text{item.text, fmt::format("{}: {}", soup_.path, item.node.parent().name())};
             const char* bytes = item.bytes.data();
             for (std::size_t i = 0; i < item.count; ++i) {
                 T& place = out[i / used * width + i % used];
                 if (item.bytes.empty()) {
-                    place = parsed<Stored, T>(item, text);
+                    place = parsed<Given, T>(item, text);
                 } else {
-                    place = converted<T>(item, load<Stored>(bytes + i * sizeof(Stored), item.swapped));
+                    place = converted<T>(item, load<Given>(bytes + i * sizeof(Given), item.swapped));
                 }
             }
             text.require(text.at_end(), "there are more values than the Dimensions say");
