@@ -286,6 +286,7 @@ namespace {
 /// A rank's share of a march whose caps are whole.
 template<int D>
 March<D> in_ranks(MarchState<D> state, SlabSettings<D> settings, Communicator& ranks) {
+    leave_cells_on_first(state.cap, ranks);
     CapCells<D> cells = take_cells(state.cap, ranks);
     const HullRange here = range_of_rank(cells.all, ranks);
     state.cells = redistributed(std::move(cells), here, ranks);
