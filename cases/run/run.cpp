@@ -326,28 +326,33 @@ private:
 
     void go_on_from(MarchState<D>&& state) {
         prepare(state.boundary, state.cap, state.time);
-        require_on_surfaces(state);
+        require_on_course(state);
         start(std::move(state));
     }
 
-    /// A projected patch is where its motion takes its surface from the start, in one layer: another motion
-    /// than before would make it jump there.
-    void require_on_surfaces(const MarchState<D>& state) const {
+    /// A patch with a surface, or with a motion of its vertices, is where these are at the time, whatever was
+    /// before: with others than before it would jump there in one layer.
+    void require_on_course(const MarchState<D>& state) const {
         const SlabSettings<D>& slab = settings_->slab;
-        const std::optional<OffSurface> off =
-            farthest_off_surface<D>(state.boundary, state.cap, slab.motions, slab.motion_start, state.time);
-        if (off) {
-            const std::string patch = patch_name(state.cap.patches, off->patch);
-            throw UsageError{
-                fmt::format(
-                    "--resume: the motion or the surface of patch {0} is not what the run began with: "
-                    "at t = {1:.9g} its vertex {2} is {3:.4g} off the surface of project.{0}, which "
-                    "the motion moves from t = {4:.9g} on. Run the case anew, without --resume, or "
-                    "keep the patch's surface and its motion until t = {1:.9g}: a \"rigid-table\" may "
-                    "go on otherwise from there",
-                    patch, state.time, off->vertex, off->distance, case_.start),
-                {{"vertex", off->vertex, patch}}};
+        const std::optional<OffCourse> off =
+            farthest_off_course<D>(state.boundary, state.cap, slab.motions, slab.motion_start, state.time);
+        if (!off) {
+            return;
         }
+        const std::string patch = patch_name(state.cap.patches, off->patch);
+        const std::string from =
+            off->off_surface
+                ? fmt::format("the surface of project.{}, which the motion moves from t = {:.9g} on", patch,
+                              case_.start)
+                : fmt::format("the place where the files of motion.{} have it", patch);
+        const char* keep = off->off_surface ? "the patch's surface and its motion" : "what the files say";
+        throw UsageError{
+            fmt::format("--resume: the motion or the surface of patch {} is not what the run "
+                        "began with: at t = {:.9g} its vertex {} is {:.4g} off {}. Run the "
+                        "case anew, without --resume, or keep {} until t = {:.9g}{}",
+                        patch, state.time, off->vertex, off->distance, from, keep, state.time,
+                        off->off_surface ? ": a \"rigid-table\" may go on otherwise from there" : ""),
+            {{"vertex", off->vertex, patch}}};
     }
 
     void start(MarchState<D>&& state) {

@@ -127,6 +127,19 @@ class FlappingPlate(NodalTest):
         self.assertLess(errors[1], 1e-4)
         self.assertGreater(errors[0], 20 * errors[1])
 
+    def test_resume_is_refused_where_the_files_have_the_plate_elsewhere(self):
+        case = self.plate_case(2, self.series(), "end = 0.25\nlayers = 2")
+        out, _ = self.build(case)
+        self.plate_case(2, self.series(times=tuple(i / 8 for i in range(17))), "end = 0.5\nslabs = 2\nlayers = 2")
+        result = slabhull("build", case, "--out", out, "--resume")
+        self.assertEqual(result.code, USAGE, result.out + result.err)
+        self.assertIn("patch plate is not what the run began with: at t = 0.25 its vertex", result.err)
+        self.assertIn("off the place where the files of motion.plate have it", result.err)
+        self.plate_case(2, self.series(), "end = 0.5\nslabs = 2\nlayers = 2")
+        result = slabhull("build", case, "--out", out, "--resume")
+        self.assertEqual(result.code, 0, result.out + result.err)
+        self.sound(out, 2)
+
     def test_vtu_files_of_meshio(self):
         if importlib.util.find_spec("meshio") is None:
             self.skipTest("no meshio here")

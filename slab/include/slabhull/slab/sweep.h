@@ -71,19 +71,21 @@ Sweep<D> sweep_boundary(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
                         const PatchMotions<D>& motions, double motion_start, std::vector<double> times,
                         const TrajectoryOptions& options);
 
-/// A vertex that is not on the projection surface of its patch.
-struct OffSurface {
+/// A vertex that is not where the motions have it.
+struct OffCourse {
     PatchNumber patch = 0;
     Index vertex = 0; ///< of the cap
     double distance = 0;
+    bool off_surface = false; ///< of its patch; else off the place that a motion of vertices gives
 };
 
-/// The vertex of `boundary`, at its place in `cap`, that is farthest off the surface of a patch of its, where
-/// the motion has taken that by `time`; none where all are on theirs, up to the surfaces' tolerances and 1e-6
-/// of the extent. After a slab none is, unless the motion or the surface was changed meanwhile.
+/// The vertex of `boundary`, at its place in `cap`, that is farthest off the projection surface of its patch,
+/// where the motion has taken that by `time`, or off its place by the patch's nodal motion; none where all
+/// are there, up to the surfaces' tolerances and 1e-6 of the extent. After a slab none is, unless the motion
+/// or the surface was changed meanwhile. Throws as nodal motions do.
 template<int D>
-std::optional<OffSurface> farthest_off_surface(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
-                                               const PatchMotions<D>& motions, double motion_start,
-                                               double time);
+std::optional<OffCourse> farthest_off_course(const Boundary<D>& boundary, const SpatialMesh<D>& cap,
+                                             const PatchMotions<D>& motions, double motion_start,
+                                             double time);
 
 } // namespace slabhull
