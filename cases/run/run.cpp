@@ -972,7 +972,7 @@ private:
     static std::string shown_file(const Json& slab) {
         const int number = slab["slab"];
         for (const Json& file : slab["files"]) {
-            const std::string name = file["name"];
+            std::string name = file["name"];
             if (name == slab_name(number, "vtu") || name == slab_name(number, "pvtu")) {
                 return name;
             }
