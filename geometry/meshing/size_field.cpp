@@ -178,8 +178,8 @@ template<int D>
 class SizeField<D>::PartMaker {
 public:
     PartMaker(const SizeField& whole, std::span<const std::array<Point<D>, 2>> wanted)
-        : whole_{whole}, wanted_{wanted}, number_(whole.sources_.size()), slack_{1e-9 * whole.edge_} {
-        number_.assign(number_.size(), no_index);
+        : whole_{whole}, wanted_{wanted}, slack_{1e-9 * whole.edge_} {
+        number_.assign(whole.sources_.size(), no_index);
         for (const double x : whole.corner_) {
             slack_ = std::max(slack_, 1e-14 * std::abs(x)); // centroids are rounded
         }

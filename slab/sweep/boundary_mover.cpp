@@ -130,17 +130,8 @@ void BoundaryMover<D>::advance(MotionGroup& group, const Array<Point<D>>& before
         options.substeps = substeps;
         slabhull::advance<D>(*group.moving->motion, group.places, from, to, options);
     } else if (group.moving != nullptr && group.moving->nodal != nullptr) {
-        group.moving->nodal->positions(tracks_of(group.vertices), to, group.places);
+        group.moving->nodal->positions(tracks_of<D>(sweep_.boundary, group.vertices), to, group.places);
     }
-}
-
-template<int D>
-std::vector<TrackId> BoundaryMover<D>::tracks_of(std::span<const Index> vertices) const {
-    std::vector<TrackId> tracks;
-    for (const Index v : vertices) {
-        tracks.push_back(sweep_.boundary.tracks()[v]);
-    }
-    return tracks;
 }
 
 /// Checks that groups take shared vertices to the same place; the first group's is kept. Stretching patches

@@ -24,6 +24,16 @@ double extent_of(std::span<const Point<D>> points) {
     return largest;
 }
 
+/// The tracks of vertices of a boundary.
+template<int D>
+std::vector<TrackId> tracks_of(const Boundary<D>& boundary, std::span<const Index> vertices) {
+    std::vector<TrackId> tracks;
+    for (const Index v : vertices) {
+        tracks.push_back(boundary.tracks()[v]);
+    }
+    return tracks;
+}
+
 /// Where the projection surface of a patch is at a time: it moves with the patch, and stands still if that
 /// stretches.
 template<int D>
@@ -67,9 +77,6 @@ public:
     int substeps_of(double part) const {
         return std::max(1, static_cast<int>(std::ceil(part * options_.substeps - 1e-6)));
     }
-
-    /// The tracks of vertices of the boundary.
-    std::vector<TrackId> tracks_of(std::span<const Index> vertices) const;
 
     /// How far projection moved the vertices of each patch, over all moves.
     const std::map<PatchNumber, ProjectionReport>& projected() const { return projected_; }

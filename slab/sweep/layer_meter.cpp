@@ -265,7 +265,7 @@ void LayerMeter<D>::measure_deviations(const Layer& layer, const Sample& before,
             measure_field(layer, group, g, before, after);
         } else if (is_nodal(group)) {
             std::vector<Point<D>> places(group.vertices.size());
-            group.moving->nodal->positions(mover_.tracks_of(group.vertices), probe, places);
+            group.moving->nodal->positions(tracks_of<D>(boundary_, group.vertices), probe, places);
             measure_at(layer, group, places, probe);
         }
         if ((is_field(group) || is_nodal(group) || stretches(group)) && after.time != layer.to) {

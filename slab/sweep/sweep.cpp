@@ -91,12 +91,8 @@ private:
     /// Without the vertices that are projected onto the surface of another patch afterwards.
     void look_at_places(PatchNumber patch, const MovingPatch<D>& moving) {
         const std::vector<Index> vertices = boundary_.vertices_of({patch});
-        std::vector<TrackId> tracks;
-        for (const Index v : vertices) {
-            tracks.push_back(boundary_.tracks()[v]);
-        }
         std::vector<Point<D>> wanted(vertices.size());
-        moving.nodal->positions(tracks, time_, wanted);
+        moving.nodal->positions(tracks_of<D>(boundary_, vertices), time_, wanted);
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             if (!projected_.contains(vertices[i])) {
                 keep({patch, boundary_.mesh_vertices()[vertices[i]],
