@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 namespace slabhull {
 
@@ -277,8 +276,10 @@ SizeField<D>::SizeField(const Packed& packed, std::span<const std::byte> lists)
     : grading_{packed.grading}, corner_{packed.corner}, edge_{packed.edge} {
     sources_.resize(packed.source_bytes / sizeof(Source));
     boxes_.resize(packed.box_bytes / sizeof(Box));
-    std::memcpy(sources_.data(), lists.data(), packed.source_bytes);
-    std::memcpy(boxes_.data(), lists.data() + packed.source_bytes, packed.box_bytes);
+    // A part far from all sources has none: its empty list has no memory that bytes could go to.
+    std::ranges::copy(lists.first(packed.source_bytes), std::as_writable_bytes(std::span{sources_}).begin());
+    std::ranges::copy(lists.subspan(packed.source_bytes, packed.box_bytes),
+                      std::as_writable_bytes(std::span{boxes_}).begin());
 }
 
 template<int D>
