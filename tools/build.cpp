@@ -54,7 +54,7 @@ void print_plan(const Case& the_case, const CasePlan& plan) {
     }
     for (std::size_t k = 0; k < plan.slabs.size(); ++k) {
         const SlabPlan& slab = plan.slabs[k];
-        fmt::print("  slab {} from t = {:.6g} to {:.6g}: {} layer{}, {:.0f} simplices on the side\n", k,
+        fmt::print("  slab {} from t = {:.9g} to {:.9g}: {} layer{}, {:.0f} simplices on the side\n", k,
                    slab.begin, slab.end, slab.layers, slab.layers == 1 ? "" : "s", slab.side_simplices);
     }
     fmt::print("  caps of about {:.2g} simplices; about {:.2g} GB of memory and {:.2g} s\n",

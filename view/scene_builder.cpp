@@ -147,7 +147,7 @@ void begin_slab(Scene& scene, const std::string& name, const TimeSpan& span,
     scene.tolerance = std::max(scene.tolerance, span.tolerance());
     if (!scene.slabs.empty() && span.first < scene.slabs.back().last - scene.tolerance) {
         throw UsageError{
-            fmt::format("{} begins at t = {:.6g}, before {} ends, at t = {:.6g}; give slabs in the "
+            fmt::format("{} begins at t = {:.9g}, before {} ends, at t = {:.9g}; give slabs in the "
                         "order of their times, each once",
                         name, span.first, scene.slabs.back().name, scene.slabs.back().last)};
     }

@@ -170,6 +170,11 @@ std::string cap_name(int cap) {
     return fmt::format("cap_{:04}.vtu", cap);
 }
 
+/// A radius-edge bound is TetGen's, which no cap in 2D asks for.
+bool has_idle_quality(const Case& the_case) {
+    return the_case.dimension == 2 && the_case.cap_quality != Case{}.cap_quality;
+}
+
 template<int D>
 class Runner {
 public:
@@ -179,6 +184,9 @@ public:
         if (!case_.check_embedding) {
             listener_.warning("check.embedding is false: nothing proves that the hulls do not cross "
                               "themselves between levels");
+        }
+        if (has_idle_quality(case_)) {
+            listener_.warning("cap.quality has no effect in 2D: leave it out");
         }
         if (first()) {
             io::make_folder(case_.directory);
@@ -754,7 +762,7 @@ private:
             "slab {}: {} {} too few for the motion of patch {}: it is up to {:.3g} local edge lengths off "
             "its "
             "chords (time.layer_tolerance is {:g}) and facets turn by up to {:.3g} degrees in a layer, worst "
-            "near t = {:.6g}; {}. Without time.layers and time.spacing, the number follows from the motion",
+            "near t = {:.9g}; {}. Without time.layers and time.spacing, the number follows from the motion",
             slab.hull.slab, slab.layers.layers, slab.layers.layers == 1 ? "layer is" : "layers are",
             patch_name(patches_, slab.layers.patch), slab.layers.deviation, case_.layer_tolerance,
             slab.layers.turn, slab.layers.time, enough));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/place_in_words.h"
 #include "slabhull/core/error.h"
 #include "slabhull/geometry/embedding.h"
 
@@ -17,11 +18,6 @@ namespace slabhull {
 
 /// Largest number of entities of one kind named in a message.
 inline constexpr std::size_t names_listed = 8;
-
-template<std::size_t N>
-std::string place_in_words(const std::array<double, N>& p) {
-    return fmt::format("({:.6g})", fmt::join(p, ", "));
-}
 
 /// Names of a surface's facets for messages: the user's number and the patch.
 template<int D>

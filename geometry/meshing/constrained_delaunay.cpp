@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/meshing/constrained_delaunay.h"
 
+#include "core/place_in_words.h"
 #include "geometry/meshing/z_order.h"
 
 #include "slabhull/core/error.h"
@@ -40,10 +41,6 @@ using Cdt =
 
 constexpr double huge_size = 1e45;
 
-std::string words(const Point<2>& p) {
-    return fmt::format("({:.6g}, {:.6g})", p[0], p[1]);
-}
-
 Entity vertex_entity(Index number) {
     return {"vertex", number, ""};
 }
@@ -79,9 +76,9 @@ private:
     [[noreturn]] void refuse_edges(const std::string& what, Index first, Index second,
                                    const char* advice) const {
         const Point<2>& near = surface_.points[surface_.facets[first][0]];
-        throw GeometryError{
-            fmt::format("boundary edges {} and {} {} near {}; {}", first, second, what, words(near), advice),
-            {edge_entity(first), edge_entity(second)}};
+        throw GeometryError{fmt::format("boundary edges {} and {} {} near {}; {}", first, second, what,
+                                        place_in_words(near), advice),
+                            {edge_entity(first), edge_entity(second)}};
     }
 
     void check_numbers() const {
@@ -119,7 +116,7 @@ private:
                 throw GeometryError{
                     fmt::format("boundary vertex {} at {} starts {} edges and ends {}; in closed "
                                 "curves of consistent direction both are one",
-                                v, words(surface_.points[v]), uses[v][0], uses[v][1]),
+                                v, place_in_words(surface_.points[v]), uses[v][0], uses[v][1]),
                     {vertex_entity(static_cast<Index>(v))}};
             }
         }
@@ -136,7 +133,7 @@ private:
                 throw GeometryError{
                     fmt::format("boundary edge {} at {} is {:.3g} long; lengths and coordinates must be "
                                 "between {:g} and {:g}",
-                                f, words(a), length, 1 / huge_size, huge_size),
+                                f, place_in_words(a), length, 1 / huge_size, huge_size),
                     {edge_entity(static_cast<Index>(f))}};
             }
         }
@@ -187,7 +184,7 @@ private:
                                              [&](Index a, Index b) { return points[a] == points[b]; });
         throw GeometryError{
             fmt::format("boundary vertices {} and {} coincide at {}; weld them or move them apart", twin[0],
-                        twin[1], words(points[twin[0]])),
+                        twin[1], place_in_words(points[twin[0]])),
             {vertex_entity(twin[0]), vertex_entity(twin[1])}};
     }
 
@@ -237,7 +234,7 @@ private:
         throw GeometryError{
             fmt::format("boundary vertex {} at {} lies on boundary edge {}; the boundary must not "
                         "touch itself",
-                        touching, words(surface_.points[touching]), facet),
+                        touching, place_in_words(surface_.points[touching]), facet),
             {vertex_entity(touching), edge_entity(facet)}};
     }
 
@@ -320,7 +317,7 @@ private:
             throw GeometryError{
                 fmt::format("boundary edge {} near {} puts the domain outside all curves; the domain "
                             "must lie to the right of each edge",
-                            edge, words(surface_.points[surface_.facets[edge][0]])),
+                            edge, place_in_words(surface_.points[surface_.facets[edge][0]])),
                 {edge_entity(edge)}};
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/adapt/adapt_cap.h"
 
+#include "core/place_in_words.h"
 #include "slab/adapt/adapt_mesh.h"
 #include "slab/adapt/adapt_round.h"
 #include "slab/adapt/cell_quality.h"
@@ -146,7 +147,7 @@ private:
                 }
             }
             const Point<D>& place = mesh_.now[mesh_.cells[cells[k]][0]];
-            names += fmt::format("{} ({:.6g})", k == 0 ? "" : ",", fmt::join(place, ", "));
+            names += fmt::format("{} {}", k == 0 ? "" : ",", place_in_words(place));
         }
         throw InvertedCap{
             fmt::format("{} of the cap's cells would be inside out between t = {} and {}, near{}; "

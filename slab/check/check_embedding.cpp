@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/check_embedding.h"
 
+#include "core/place_in_words.h"
 #include "geometry/embedding/embedded_caps.h"
 #include "slab/check/findings.h"
 #include "slab/check/part_embedding.h"
@@ -10,10 +11,10 @@
 #include "slabhull/topology/adjacency.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -35,7 +36,7 @@ struct NamedCell {
 std::string text_of(const NamedCell& cell) {
     const auto [first, last] = cell.times;
     const std::string times =
-        first == last ? fmt::format("t = {:.6g}", first) : fmt::format("t = {:.6g} to {:.6g}", first, last);
+        first == last ? fmt::format("t = {:.9g}", first) : fmt::format("t = {:.9g} to {:.9g}", first, last);
     const std::string patch = cell.patch.empty()                 ? ""
                               : cell.patch.starts_with("patch ") ? cell.patch + ", "
                                                                  : "patch " + cell.patch + ", ";
@@ -54,9 +55,9 @@ public:
         const std::array<Index, 2> both{crossing.first, crossing.second};
         const auto& at = crossing.near;
         findings_.other(Defect::self_crossing, findings_.cell_entities(both),
-                        fmt::format("{} and {} meet at t = {:.6g} near ({:.6g})",
-                                    text_of(named(both[0], times[0])), text_of(named(both[1], times[1])),
-                                    at[D], fmt::join(at.begin(), at.begin() + D, ", ")));
+                        fmt::format("{} and {} meet at t = {:.9g} near {}", text_of(named(both[0], times[0])),
+                                    text_of(named(both[1], times[1])), at[D],
+                                    place_in_words(std::span{at}.template first<D>())));
     }
 
 private:

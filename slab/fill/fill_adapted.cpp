@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slabhull/slab/fill.h"
 
+#include "core/place_in_words.h"
 #include "slab/adapt/replace_cells.h"
 #include "slab/fill/describe_hull.h"
 #include "slab/fill/layer_side.h"
@@ -254,7 +255,7 @@ private:
         for (std::size_t k = 0; k < std::min(bad.size(), most_named); ++k) {
             const Point<D + 1>& place = filling_.points[filling_.cells[bad[k]][0]];
             entities.push_back({"cell", bad[k], {}});
-            places += fmt::format("{} ({:.6g})", k == 0 ? "" : ",", fmt::join(place, ", "));
+            places += fmt::format("{} {}", k == 0 ? "" : ",", place_in_words(place));
         }
         throw GeometryError{
             fmt::format("{} of {} simplices of the filling would be inside out or flat, near{}; more layers "

@@ -3,6 +3,7 @@
 
 #include "core/pieces.h"
 
+#include "core/place_in_words.h"
 #include "slab/check/findings.h"
 #include "slab/slice/active_cells.h"
 #include "slab/slice/cut_table.h"
@@ -146,12 +147,11 @@ private:
                 {"cell", numbers.back(), patch_name(section.surface.patches, section.surface.patch[f])});
         }
         throw GeometryError{
-            fmt::format(
-                "the section at t = {} is not closed: {} near ({:.6g}), at cell{} {} (patch {}) of the "
-                "hull; {} such place{}. `slabhull check` tells what is wrong with the hull",
-                section.time, what, fmt::join(section.surface.points[first.facet[0]], ", "),
-                numbers.size() > 1 ? "s" : "", fmt::join(numbers, ", "), entities.front().patch,
-                defects.size(), defects.size() > 1 ? "s" : ""),
+            fmt::format("the section at t = {} is not closed: {} near {}, at cell{} {} (patch {}) of the "
+                        "hull; {} such place{}. `slabhull check` tells what is wrong with the hull",
+                        section.time, what, place_in_words(section.surface.points[first.facet[0]]),
+                        numbers.size() > 1 ? "s" : "", fmt::join(numbers, ", "), entities.front().patch,
+                        defects.size(), defects.size() > 1 ? "s" : ""),
             entities};
     }
 

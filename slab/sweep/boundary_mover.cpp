@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slab/sweep/boundary_mover.h"
 
+#include "core/place_in_words.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/vector.h"
 
@@ -162,8 +163,8 @@ void BoundaryMover<D>::refuse(const MotionGroup& a, const MotionGroup& b, double
         if (a.vertices[i] == b.vertices[j]) {
             if (distance(a.places[i], b.places[j]) > agreement * extent_) {
                 apart.push_back(vertex_entity(a.vertices[i], a.patches));
-                listed.push_back(fmt::format("{} at ({:.6g})", apart.back().number,
-                                             fmt::join(sweep_.positions.front()[a.vertices[i]], ", ")));
+                listed.push_back(fmt::format("{} at {}", apart.back().number,
+                                             place_in_words(sweep_.positions.front()[a.vertices[i]])));
             }
             ++i;
             ++j;
@@ -235,12 +236,12 @@ void BoundaryMover<D>::require_room(const Crease& crease, std::span<const double
         const Index v = crease.vertices[worst];
         const std::string message = fmt::format(
             "projection of {} at t = {:.9g} would move {} vertices by more than half of their "
-            "shortest edge, the farthest, vertex {} at ({:.6g}), by {:.4g} with an edge of {:.4g}; "
+            "shortest edge, the farthest, vertex {} at {}, by {:.4g} with an edge of {:.4g}; "
             "check that the projection surface is that of the patch and that angles of its motion are in "
             "radians, or "
             "shorten the layers",
             names(crease.patches), to, too_far.size(), sweep_.boundary.mesh_vertices()[v],
-            fmt::join(places[v], ", "), moved[worst], room[v]);
+            place_in_words(places[v]), moved[worst], room[v]);
         throw GeometryError(message, std::move(too_far));
     }
 }

@@ -3,6 +3,7 @@
 
 #include "core/listed.h"
 #include "core/pieces.h"
+#include "core/place_in_words.h"
 #include "slab/sweep/boundary_mover.h"
 #include "slabhull/core/communicator.h"
 #include "slabhull/geometry/embedding.h"
@@ -74,8 +75,8 @@ template<int D>
 std::string collapse_in_words(const std::string& patch, const PatchFault<D>& fault, double time) {
     std::vector<Index> facets{fault.facet};
     facets.insert(facets.end(), fault.partners.begin(), fault.partners.end());
-    return fmt::format("patch {} collapses at t = {:.9g} near ({:.6g}), facet{} {}", patch, time,
-                       fmt::join(fault.near, ", "), facets.size() > 1 ? "s" : "",
+    return fmt::format("patch {} collapses at t = {:.9g} near {}, facet{} {}", patch, time,
+                       place_in_words(fault.near), facets.size() > 1 ? "s" : "",
                        listed(facets, most_partners));
 }
 
@@ -85,8 +86,8 @@ std::string crossing_in_words(const std::string& first, const std::string& secon
                               double time) {
     const std::string who = first == second ? fmt::format("patch {} crosses itself", first)
                                             : fmt::format("patches {} and {} cross", first, second);
-    return fmt::format("{} at t = {:.9g} near ({:.6g}), facets {} and {}", who, time,
-                       fmt::join(fault.near, ", "), fault.facet, listed(fault.partners, most_partners));
+    return fmt::format("{} at t = {:.9g} near {}, facets {} and {}", who, time, place_in_words(fault.near),
+                       fault.facet, listed(fault.partners, most_partners));
 }
 
 /// A line for each pair of patches; empty when nothing crosses.

@@ -491,13 +491,18 @@ mistake("The body is in metres, the box in millimetres", code=DONE, command="bui
         says="warning: initial boundary of ball.off: the largest body is 0.1 long, the outer boundary 4e+03: ",
         todo="if they are in different units, slabhull convert --scale changes those of a surface")
 
+# --- Caps
+
+mistake("A bound of TetGen in 2D", case=CIRCLE + "[cap]\nquality = 1.2\n", code=DONE,
+        says="warning: cap.quality has no effect in 2D: ", todo="leave it out")
+
 # --- Motions
 
 mistake("Degrees for radians, with given layers", case=CIRCLE + SPIN + "rate = 90\n", code=GEOMETRY,
         says="warning: motion.body.rate: 90 radians per unit of time are 7.16 turns in the layer from t = "
              "0 to 0.5; if degrees were meant, give 1.5708\n"
              "slabhull: projection of patch body at t = 0.5 would move 32 vertices by more than half of "
-             "their shortest edge, the farthest, vertex 4 at (9.48552e+11, 2.7041e+12), by 2.866e+12 with "
+             "their shortest edge, the farthest, vertex 4 at (9.48551917e+11, 2.70410133e+12), by 2.866e+12 with "
              "an edge of 5.618e+11; ",
         todo="check that the projection surface is that of the patch and that angles of its motion are in "
              "radians, or shorten the layers")
@@ -537,7 +542,7 @@ mistake("Layers that are too long for the motion", code=DONE, files={"wing.dat":
 mistake("A table that has degrees in its column of radians", case=BY_TABLE, files={"spin.csv": "time, angle\n0, 0\n1, 360\n"},
         code=GEOMETRY,
         says="projection of patch body at t = 0.5 would move 32 vertices by more than half of their "
-             "shortest edge, the farthest, vertex 5 at (1.43392e+32, -6.79209e+31), by 1.587e+32 with an "
+             "shortest edge, the farthest, vertex 5 at (1.43391692e+32, -6.79208647e+31), by 1.587e+32 with an "
              "edge of 3.11e+31; ",
         todo="check that the projection surface is that of the patch and that angles of its motion are in "
              "radians, or shorten the layers")
@@ -801,7 +806,7 @@ def contents(folder):
 
 def names_a_place(entry):
     """A message names a file, an option, a key's table, a patch or the command."""
-    words = [*entry.files, "case.toml", "motion.", "initial.", "patch", "cap.size", "velocity formula", "slabhull --help", "run/"]
+    words = [*entry.files, "case.toml", "motion.", "initial.", "patch", "cap.", "velocity formula", "slabhull --help", "run/"]
     words += [word for word in entry.command.split() if len(word) > 3]
     return any(word in entry.says + entry.todo for word in words)
 
