@@ -22,4 +22,13 @@ constexpr std::uint64_t combined_hash(std::uint64_t hash, std::uint64_t value) {
     return product ^ product >> 32;
 }
 
+/// The hash of several integers in their order, after what `before` is the hash of.
+template<class Integers>
+constexpr std::uint64_t hash_of_all(const Integers& values, std::uint64_t before = 0) {
+    for (const auto value : values) {
+        before = combined_hash(before, static_cast<std::uint64_t>(value));
+    }
+    return before;
+}
+
 } // namespace slabhull

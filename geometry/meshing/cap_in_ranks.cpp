@@ -122,7 +122,7 @@ public:
     void join(std::size_t boundary_facets) {
         ListsByRank<OpenFacet> to(count_of(ranks_));
         for (const OpenFacet& facet : open_) {
-            to[hash(facet.vertices) % to.size()].push_back(facet);
+            to[hash_of_all(facet.vertices) % to.size()].push_back(facet);
         }
         Array<OpenFacet> met = joined(ranks_.all_to_all(to));
         ListsByRank<Link> links(count_of(ranks_));
@@ -181,14 +181,6 @@ private:
         Simplex<3> vertices;
         Neighbors<3> neighbors;
     };
-
-    static std::uint64_t hash(const Facet<3>& vertices) {
-        std::uint64_t sum = 0;
-        for (const Index v : vertices) {
-            sum = combined_hash(sum, v);
-        }
-        return sum;
-    }
 
     void share_points(const DomainBlocks& blocks, std::span<const MeshedBlock> own) {
         Array<Point<3>> fresh;

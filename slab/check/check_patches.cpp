@@ -136,11 +136,7 @@ public:
 
 private:
     static std::size_t hash(const FacetPatch<D>& facet) {
-        auto sum = static_cast<std::uint64_t>(facet.patch);
-        for (const TrackId track : facet.tracks) {
-            sum = combined_hash(sum, static_cast<std::uint64_t>(track));
-        }
-        return sum;
+        return hash_of_all(facet.tracks, static_cast<std::uint64_t>(facet.patch));
     }
 
     FacetPatches<D> seen_; ///< starts with patch 0, which no claim has

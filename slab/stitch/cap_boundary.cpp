@@ -55,11 +55,7 @@ public:
 
 private:
     std::size_t hash(const Facet<D>& key) const {
-        std::uint64_t sum = 0;
-        for (const Index v : key) {
-            sum = combined_hash(sum, v);
-        }
-        return static_cast<std::size_t>(multiplied_hash(sum) >> shift_);
+        return static_cast<std::size_t>(multiplied_hash(hash_of_all(key)) >> shift_);
     }
 
     std::span<const Facet<D>> facets_;
