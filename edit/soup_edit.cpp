@@ -10,6 +10,7 @@
 #include "slabhull/topology/spatial_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
@@ -338,9 +339,16 @@ bool has_time_as_coordinate(const io::Soup& soup) {
 
 void scale(io::Soup& soup, double factor) {
     const std::size_t axes = has_time_as_coordinate(soup) ? 2 : 3;
-    for (Point<3>& point : soup.points) {
+    for (std::size_t i = 0; i < soup.points.size(); ++i) {
+        Point<3>& point = soup.points[i];
         for (std::size_t k = 0; k < axes; ++k) {
             point[k] *= factor;
+            if (!std::isfinite(point[k])) {
+                throw GeometryError{fmt::format("scaled by {}, point {} is beyond the largest number; give a "
+                                                "smaller factor",
+                                                factor, soup.point_tag(i)),
+                                    {{"point", soup.point_tag(i), {}}}};
+            }
         }
     }
 }

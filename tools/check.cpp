@@ -174,6 +174,24 @@ int check_filling_file(const CheckCommand& command, const FillingArrays<D>& fill
     return tell(command, check_filling<D>(filling.columns(), hull ? &*hull : nullptr));
 }
 
+/// Tetrahedra of points (x, y, t) as a filling; triangles that a file lists are claims of its boundary, their
+/// groups attributes.
+FillingArrays<2> filling_in_space(const io::Soup& soup) {
+    const MeshArrays<3> mesh = mesh_of_soup<3>(soup);
+    FillingArrays<2> filling;
+    filling.points = mesh.points;
+    filling.cells = mesh.cells;
+    const io::SimplexBlock& listed = soup.simplices[2];
+    filling.facets.resize(listed.size(2));
+    for (std::size_t f = 0; f < filling.facets.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            filling.facets[f][k] = listed.vertices[3 * f + k];
+        }
+    }
+    filling.facet_attribute.assign(listed.physical.begin(), listed.physical.end());
+    return filling;
+}
+
 /// Checks a filling: a space-time file, or any file when --hull is given; nothing for other files.
 std::optional<int> check_as_filling(const CheckCommand& command) {
     if (io::is_space_time_file(command.file)) {
@@ -191,11 +209,7 @@ std::optional<int> check_as_filling(const CheckCommand& command) {
                         "that it fills; leave --hull out to check it by itself",
                         command.file)};
     }
-    const MeshArrays<3> mesh = mesh_of_soup<3>(soup);
-    FillingArrays<2> filling;
-    filling.points = mesh.points;
-    filling.cells = mesh.cells;
-    return check_filling_file<2>(command, filling);
+    return check_filling_file<2>(command, filling_in_space(soup));
 }
 
 int check(const CheckCommand& command) {

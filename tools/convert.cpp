@@ -241,7 +241,10 @@ void add_convert(CLI::App& program, int& exit_code) {
                   "OUT in Medit's dialect with vertices x y z t, from the point data t");
     app->add_option("--pieces", command->writing.pieces,
                     "So many files, ranges of cells, for parallel readers: .pvtu, .msh")
-        ->check([](const std::string& count) { return count == "0" ? "expected at least 1, not 0" : ""; });
+        ->check([](const std::string& count) {
+            return count == "0" || count.starts_with('-') ? "expected at least 1, not " + count
+                                                          : std::string{};
+        });
     app->add_option("--region", command->region, "Of a hull, only that part: initial, side or terminating")
         ->check(CLI::IsMember(region_names));
     app->add_option("--patch", command->patch,

@@ -214,9 +214,11 @@ private:
         io::Soup soup = read_named(file, command_.from);
         const MeshKind kind = kind_of(soup);
         if (!kind.hull) {
-            throw InputError{fmt::format("{}: a mesh in space, not the hull of a slab; give a file that "
-                                         "slabhull build wrote (slab_0000.vtu)",
-                                         file)};
+            throw InputError{
+                fmt::format("{}: neither the hull of a slab nor a filling that can be cut; give a "
+                            "hull that slabhull build wrote (slab_0000.vtu), or a filling as .h5 "
+                            "or .getfem",
+                            file)};
         }
         require_dimension(file, kind.dimension);
         cut_as_input(file, [&] { kind.dimension == 2 ? cut_hull<2>(file, soup) : cut_hull<3>(file, soup); });

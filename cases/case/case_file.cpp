@@ -383,6 +383,11 @@ private:
         if (table.has("boundary")) {
             case_.adapt_boundary = table.boolean("boundary");
         }
+        if (!case_.adapt_boundary && !patches.empty()) {
+            table.fail("boundary",
+                       fmt::format("true, or nothing, beside [adapt.{}], which adapts the boundary",
+                                   patches.front()));
+        }
         case_.adapt_feature_angle = table.number_or("feature_angle", case_.adapt_feature_angle);
         if (!(case_.adapt_feature_angle > 0 && case_.adapt_feature_angle <= 90)) {
             table.fail("feature_angle", "an angle above 0, up to 90 degrees");

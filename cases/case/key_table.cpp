@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -34,6 +35,15 @@ struct KeyTable::Node {
 };
 
 namespace {
+
+/// The nearest double to a number, whole ones beyond 2^53, too; nothing if it is not finite, or no number.
+std::optional<double> as_double(const toml::node& node) {
+    if (const toml::value<std::int64_t>* const whole = node.as_integer()) {
+        return static_cast<double>(whole->get());
+    }
+    const toml::value<double>* const number = node.as_floating_point();
+    return number != nullptr && std::isfinite(number->get()) ? std::optional{number->get()} : std::nullopt;
+}
 
 std::string read_all(const std::filesystem::path& path) {
     std::ifstream file{path, std::ios::binary};
@@ -70,6 +80,30 @@ std::string toml_fault(const std::string& said) {
                        readable(colon == std::string::npos ? said : said.substr(colon + 2)), found->advice);
 }
 
+/// toml++ takes tables of tables apart recursively: dotted keys of very many parts would exhaust the stack.
+void require_shallow(const std::string& text, const std::string& file) {
+    constexpr int most_parts = 1000;
+    int parts = 0;
+    std::size_t line = 1;
+    char before = '.';
+    for (const char c : text) {
+        line += c == '\n' ? 1 : 0;
+        if (c == '.') {
+            parts = before == '.' ? 0 : parts + 1; // dots in a row are no key
+        } else if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-' && c != '"' &&
+                   c != '\'') {
+            parts = 0;
+        }
+        before = c;
+        if (parts == most_parts) {
+            throw UsageError(
+                fmt::format("{}: line {}: no TOML: a key of more than {} parts; write key = value, a line "
+                            "each, under [table] headings",
+                            file, line, most_parts));
+        }
+    }
+}
+
 } // namespace
 
 KeyTable::KeyTable(std::shared_ptr<Node> node) : node_{std::move(node)} {}
@@ -79,6 +113,7 @@ KeyTable KeyTable::parse_file(const std::filesystem::path& path) {
 }
 
 KeyTable KeyTable::parse(const std::string& text, const std::string& name) {
+    require_shallow(text, name);
     try {
         auto root = std::make_shared<const toml::table>(toml::parse(text));
         const toml::table* table = root.get();
@@ -181,11 +216,11 @@ double KeyTable::number(const std::string& key) {
     if (node == nullptr || !node->is_number()) {
         fail(key, "a number");
     }
-    const double value = *node->value<double>();
-    if (!std::isfinite(value)) {
+    const std::optional<double> value = as_double(*node);
+    if (!value) {
         fail(key, "a finite number");
     }
-    return value;
+    return *value;
 }
 
 double KeyTable::number_or(const std::string& key, double otherwise) {
@@ -210,8 +245,8 @@ std::vector<double> KeyTable::numbers(const std::string& key, int count) {
     }
     std::vector<double> values;
     for (const toml::node& entry : *node->as_array()) {
-        const auto value = entry.value<double>();
-        if (!entry.is_number() || !value || !std::isfinite(*value)) {
+        const std::optional<double> value = as_double(entry);
+        if (!value) {
             fail(key, expected);
         }
         values.push_back(*value);

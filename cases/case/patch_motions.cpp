@@ -63,7 +63,7 @@ MotionPointer<D> motion_of(const MotionSpec& spec, const Case& the_case) {
 }
 
 template<int D>
-ProjectionSurfacePointer<D> projection_of(const ProjectionSpec& spec) {
+ProjectionSurfacePointer<D> projection_of(const ProjectionSpec& spec, std::vector<std::string>& remarks) {
     switch (spec.kind) {
     case ProjectionSpec::Kind::sphere:
         return sphere_surface<D>(as_point<D>(spec.centre), spec.semi_axes.front());
@@ -75,7 +75,7 @@ ProjectionSurfacePointer<D> projection_of(const ProjectionSpec& spec) {
         }
         break;
     case ProjectionSpec::Kind::file:
-        return surface_from_file<D>(spec.file);
+        return surface_from_file<D>(spec.file, remarks);
     case ProjectionSpec::Kind::plane:
         break;
     }
@@ -84,7 +84,7 @@ ProjectionSurfacePointer<D> projection_of(const ProjectionSpec& spec) {
 
 template MotionPointer<2> motion_of<2>(const MotionSpec&, const Case&);
 template MotionPointer<3> motion_of<3>(const MotionSpec&, const Case&);
-template ProjectionSurfacePointer<2> projection_of<2>(const ProjectionSpec&);
-template ProjectionSurfacePointer<3> projection_of<3>(const ProjectionSpec&);
+template ProjectionSurfacePointer<2> projection_of<2>(const ProjectionSpec&, std::vector<std::string>&);
+template ProjectionSurfacePointer<3> projection_of<3>(const ProjectionSpec&, std::vector<std::string>&);
 
 } // namespace slabhull

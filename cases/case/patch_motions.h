@@ -14,6 +14,6 @@ template<int D>
 MotionPointer<D> motion_of(const MotionSpec& spec, const Case& the_case);
 
 template<int D>
-ProjectionSurfacePointer<D> projection_of(const ProjectionSpec& spec);
+ProjectionSurfacePointer<D> projection_of(const ProjectionSpec& spec, std::vector<std::string>& remarks);
 
 } // namespace slabhull

@@ -38,6 +38,11 @@ void require_held(const Case& the_case, const PatchList& patches) {
     const bool msh = is_among("msh", the_case.formats);
     const bool msh_of_filling = the_case.fill && is_among("msh", the_case.fill->formats);
     for (const Patch& patch : patches) {
+        if (patch.name.find('\0') != std::string::npos) { // which ends texts in VTU
+            throw UsageError{
+                fmt::format("the name of patch \"{}\" has a NUL character in it; rename the patch",
+                            readable(patch.name))};
+        }
         if ((msh || the_case.fill) && patch.number > largest) {
             throw FormatLimit{fmt::format(
                 "patch \"{}\" has the number {}, but {} up to {}, as two more are for the caps; give it a "
@@ -110,7 +115,7 @@ public:
         for (const auto& [patch, spec] : case_.projections) {
             add_projection(patch, spec);
         }
-        return {std::move(settings_), std::move(matches_)};
+        return {std::move(settings_), std::move(matches_), std::move(remarks_)};
     }
 
 private:
@@ -149,7 +154,7 @@ private:
         if (moving.motion == nullptr && moving.stretch == nullptr) {
             moving.motion = standing<D>();
         }
-        moving.surface = projection_of<D>(spec);
+        moving.surface = projection_of<D>(spec, remarks_);
         for (const PatchNumber number : numbers) {
             settings_.motions[number] = moving;
         }
@@ -165,6 +170,7 @@ private:
     const Boundary<D>& boundary_;
     SlabSettings<D> settings_;
     std::map<PatchNumber, DisplacementMatch> matches_;
+    std::vector<std::string> remarks_;
     std::set<PatchNumber> stretching_;
 };
 

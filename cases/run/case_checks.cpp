@@ -5,6 +5,7 @@
 #include "cases/tables/displacement_files.h"
 #include "slabhull/core/error.h"
 #include "slabhull/core/missing_file.h"
+#include "slabhull/io/checksum.h"
 #include "slabhull/io/formats.h"
 
 #include <algorithm>
@@ -128,6 +129,15 @@ void warn_of_turn(const Case& the_case, const std::string& key, const MotionSpec
     }
 }
 
+void each_table(const MotionSpec& motion, const std::function<void(const std::filesystem::path&)>& visit) {
+    if (!motion.table.empty()) {
+        visit(motion.table);
+    }
+    for (const MotionSpec& step : motion.steps) {
+        each_table(step, visit);
+    }
+}
+
 } // namespace
 
 void require_files(const Case& the_case) {
@@ -137,6 +147,21 @@ void require_files(const Case& the_case) {
             require_kept(the_case, key, file);
         }
     });
+}
+
+std::uint32_t checksum_of_motions(const Case& the_case) {
+    io::Checksum sum;
+    const auto add = [&sum](std::uint32_t value) { sum.add(&value, sizeof value); };
+    add(the_case.checksum);
+    for (const auto& [patch, motion] : the_case.motions) {
+        each_table(motion, [&](const std::filesystem::path& table) { add(io::checksum_of(table)); });
+    }
+    for (const auto& [patch, projection] : the_case.projections) {
+        if (!projection.file.empty()) {
+            add(io::checksum_of(projection.file));
+        }
+    }
+    return sum.value();
 }
 
 Case case_in_ranks(Case the_case, int ranks) {

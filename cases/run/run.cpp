@@ -179,7 +179,8 @@ template<int D>
 class Runner {
 public:
     Runner(const Case& the_case, const RunOptions& options, const Listener& listener)
-        : case_{the_case}, listener_{listener}, ranks_{options.ranks},
+        : case_{the_case}, listener_{listener}, ranks_{options.ranks}, checksum_{checksum_of_motions(
+                                                                           the_case)},
           meter_{listener, the_case.start, the_case.end, the_case.slabs}, watched_{meter_.watch()} {
         if (!case_.check_embedding) {
             listener_.warning("check.embedding is false: nothing proves that the hulls do not cross "
@@ -256,9 +257,10 @@ private:
             return false;
         }
         Checkpoint<D> checkpoint = read_checkpoint<D>(path);
-        if (checkpoint.files.case_checksum != case_.checksum) {
+        if (checkpoint.files.case_checksum != checksum_) {
             listener_.warning(fmt::format(
-                "the case file is not what it was when {} was written: slabs that are there stay as they "
+                "the case file, or a table or surface that it names, is not what it was when {} was written: "
+                "slabs that are there stay as they "
                 "are, and what is left to do follows the new file; to build all of it anew, run without "
                 "--resume",
                 path.string()));
@@ -383,6 +385,9 @@ private:
     void prepare(const Boundary<D>& boundary, const SpatialMesh<D>& cap, double time) {
         if (!settings_) {
             settings_ = case_settings<D>(case_, boundary);
+            for (const std::string& remark : settings_->remarks) {
+                listener_.warning(remark);
+            }
             settings_->slab.layers.suggest = !told_of_layers_;
             settings_->slab.ranks = ranks_;
             settings_->slab.cap.ranks = ranks_;
@@ -524,7 +529,7 @@ private:
                 journal_->append(report.dump());
                 write_checkpoint(
                     path_of(checkpoint_name), built.after ? *built.after : march_->state(),
-                    {cap, built.files.cap_checksum, journal_->size(), journal_->checksum(), case_.checksum});
+                    {cap, built.files.cap_checksum, journal_->size(), journal_->checksum(), checksum_});
             }
         });
         meter_.end_slab(built.clock);
@@ -1017,6 +1022,7 @@ private:
     const Listener& listener_;
     Communicator* ranks_; ///< nullptr: this process alone
     std::optional<io::FolderLock> lock_;
+    std::uint32_t checksum_; ///< of the inputs that a resumed run goes on with
     ProgressMeter meter_;
     ProgressScope watched_;
     double file_bytes_per_cell_ = 0;          ///< in the last slab

@@ -364,7 +364,7 @@ private:
         }
         line("\n# [project.{}]           # the surface that the patch's vertices are put back on",
              as_key(patches_.front().first));
-        line("# surface = \"file\"\n# file = \"surface.stl\"");
+        line("# surface = \"file\"\n# file = \"{}\"", dimension_ == 3 ? "surface.stl" : "curve.dat");
     }
 
     void rest() {

@@ -64,18 +64,22 @@ double rounding_of_format(const std::filesystem::path& path, const Surface<D>& s
 } // namespace
 
 template<int D>
-ProjectionSurfacePointer<D> surface_from_file(const std::filesystem::path& path) {
+ProjectionSurfacePointer<D> surface_from_file(const std::filesystem::path& path,
+                                              std::vector<std::string>& remarks) {
     if constexpr (D == 3) {
         if (const auto format = cad_format(path)) {
             return read_cad(path, *format);
         }
     }
     const io::Soup soup = D == 3 ? io::read_surface(path) : io::read_curve(path);
+    remarks.insert(remarks.end(), soup.remarks.begin(), soup.remarks.end());
     const Surface<D> surface = surface_of_soup<D>(soup, {1, "projection"});
     return facet_surface<D>(surface, rounding_of_format<D>(path, surface));
 }
 
-template ProjectionSurfacePointer<2> surface_from_file<2>(const std::filesystem::path&);
-template ProjectionSurfacePointer<3> surface_from_file<3>(const std::filesystem::path&);
+template ProjectionSurfacePointer<2> surface_from_file<2>(const std::filesystem::path&,
+                                                          std::vector<std::string>&);
+template ProjectionSurfacePointer<3> surface_from_file<3>(const std::filesystem::path&,
+                                                          std::vector<std::string>&);
 
 } // namespace slabhull

@@ -136,8 +136,8 @@ private:
     /// spoil that direction, so a point farther off is used, but near enough that the strongest curvature
     /// does no harm.
     TangentPlane<D> tangent_plane(const Wall<D>& wall, const Point<D>& x, const Point<D>& foot) const {
-        const double off = 1e-7 * extent_;
-        const double readable = 1e-11 * extent_;
+        const double off = std::max(1e-7 * extent_, 1e5 * rounding_near(x));
+        const double readable = std::max(1e-11 * extent_, 10 * rounding_near(x));
         const Point<D> arm = minus(x, foot);
         const double distance = norm(arm);
         if (distance >= off) {
@@ -169,8 +169,8 @@ private:
     }
 
     void require_meeting(const Stance<D>& best, const Point<D>& x, std::size_t number) const {
-        constexpr double rounding = 1e-13;
-        if (best.gap <= std::max(rounding * extent_, loose_)) { // false for NaN
+        const double rounding = std::max(1e-13 * extent_, 16 * rounding_near(x));
+        if (best.gap <= std::max(rounding, loose_)) { // false for NaN
             return;
         }
         throw GeometryError{
@@ -179,6 +179,15 @@ private:
                         "meet there, and move alike",
                         walls_.size(), number, to_text(x), best.gap, to_text(best.x)),
             {{"vertex", static_cast<std::int64_t>(number), {}}}};
+    }
+
+    /// Of coordinates: it counts where the mesh is small beside its distance from the origin.
+    static double rounding_near(const Point<D>& x) {
+        double largest = 0;
+        for (const double each : x) {
+            largest = std::max(largest, std::abs(each));
+        }
+        return std::numeric_limits<double>::epsilon() * largest;
     }
 
     std::vector<Wall<D>> walls_;

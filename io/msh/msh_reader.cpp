@@ -9,6 +9,7 @@
 #include "io/mesh/tag_index.h"
 #include "io/msh/gmsh_types.h"
 #include "slabhull/core/parallel.h"
+#include "slabhull/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +82,10 @@ private:
             read_data(name);
         } else {
             skip_section(name); // also $GhostElements, which repeats elements of other partitions
+            if (name == "$ElementNodeData") {
+                soup_.remarks.push_back(
+                    fmt::format("{}: {} is left out: values at the corners of elements", soup_.path, name));
+            }
         }
         const std::string closing = "$End" + name.substr(1);
         require(in_.word() == closing, closing + " was expected");
@@ -615,7 +620,8 @@ private:
         return head;
     }
 
-    /// Data of all nodes, or of all elements of the top dimension, become arrays; other data are ignored.
+    /// Data of all nodes, or of all elements of the top dimension, become arrays; other data are left out
+    /// with a remark.
     void read_data(const std::string& section) {
         const bool on_nodes = section == "$NodeData";
         require(on_nodes ? nodes_read_ : elements_read_, section + " was expected after what it describes");
@@ -629,13 +635,21 @@ private:
         const std::size_t wanted = on_nodes ? soup_.points.size() : top_block().tags.size();
         if (rows < wanted) {
             in_.binary() ? in_.seek(in_.offset() + rows * row_bytes) : skip_section(section);
+            remark_partial(head.name, on_nodes);
             return;
         }
         Array<double> values(wanted * head.components);
         if (read_data_rows(rows, head.components, index, wanted, values)) {
             auto& arrays = on_nodes ? soup_.point_data : soup_.cell_data;
             arrays.push_back({head.name, static_cast<int>(head.components), std::move(values)});
+        } else {
+            remark_partial(head.name, on_nodes);
         }
+    }
+
+    void remark_partial(const std::string& array, bool on_nodes) {
+        soup_.remarks.push_back(fmt::format("{}: the array \"{}\" is left out: it has no value for some {}",
+                                            soup_.path, readable(array), on_nodes ? "nodes" : "elements"));
     }
 
     /// Reads rows of data; returns whether each of the `wanted` got its row.

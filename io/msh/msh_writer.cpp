@@ -13,18 +13,20 @@
 #include <fmt/format.h>
 #include <limits>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace slabhull::io {
 
 namespace {
 
-/// Checks a group's name, which MSH puts in double quotes without an escape for them.
-const std::string& quotable(const std::string& name) {
+/// Checks a name, which MSH puts in double quotes without an escape for them.
+const std::string& quotable(const std::string& name, const char* whose) {
     if (name.find_first_of("\"\n\r") != std::string::npos) {
-        throw FormatLimit{fmt::format("MSH has no place for a double quote or a line end in the name of a "
-                                      "group, as in {}; rename it, or write VTU",
-                                      name)};
+        throw FormatLimit{
+            fmt::format("MSH has no place for a double quote or a line end in the name of {}, as "
+                        "in {}; rename it, or write {}",
+                        whose, name, whose == std::string_view{"a group"} ? "VTU" : "legacy VTK")};
     }
     return name;
 }
@@ -148,8 +150,8 @@ private:
             for (const Group& group : part.groups) {
                 if (group.number > 0 && !group.name.empty() &&
                     named.emplace(part.dimension, group.number).second) {
-                    lines +=
-                        fmt::format("{} {} \"{}\"\n", part.dimension, group.number, quotable(group.name));
+                    lines += fmt::format("{} {} \"{}\"\n", part.dimension, group.number,
+                                         quotable(group.name, "a group"));
                 }
             }
         }
@@ -338,6 +340,7 @@ private:
 
     /// Gmsh reads reals of 3 or 9 components; all others are written component by component.
     void write_data(const char* name, const DataColumn& data, const MshTags& tags) {
+        quotable(data.name, "an array");
         const int components = components_of(data);
         if (data.type == Scalar::float64 && (components == 3 || components == 9)) {
             write_components(name, data.name, data, 0, components, tags);

@@ -4,11 +4,14 @@
 #include "core/hash.h"
 #include "io/files/coordinate.h"
 #include "io/files/file_cursor.h"
+#include "slabhull/core/vector.h"
 
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace slabhull::io {
 
@@ -104,6 +107,7 @@ public:
                                        count, binary_size, size,
                                        size < binary_size ? "cut short" : "added to"));
         }
+        remark_rounding();
     }
 
 private:
@@ -177,8 +181,23 @@ private:
         }
     }
 
+    /// Far from the origin, single precision may move places by more than a solver would accept.
+    void remark_rounding() {
+        constexpr double told = 1e-3; // of an edge
+        const double step = std::numeric_limits<float>::epsilon() * largest_;
+        const double edge = edges_ / static_cast<double>(surface_.triangles());
+        if (step > told * edge) {
+            surface_.remarks.push_back(fmt::format("STL has single precision: coordinates of {:.3g} go in "
+                                                   "steps of {:.2g}, and an edge is {:.2g} long, "
+                                                   "so the shape is not what it was. Use PLY, OBJ or OFF, or "
+                                                   "move it to the origin before you export it",
+                                                   largest_, step, edge));
+        }
+    }
+
     Index vertex(std::size_t facet, const Point<3>& x) {
         for (const double value : x) {
+            largest_ = std::max(largest_, std::abs(value));
             if (!is_coordinate(value)) {
                 in_.fail(why_no_coordinate(value, fmt::format("facet {}", facet)));
             }
@@ -194,12 +213,15 @@ private:
             surface_.skip_face();
         } else {
             surface_.add_triangle(corners[0], corners[1], corners[2]);
+            edges_ += distance(surface_.points[corners[0]], surface_.points[corners[1]]);
         }
     }
 
     FileCursor in_;
     SurfaceBuilder& surface_;
     Welder weld_;
+    double largest_ = 0; ///< coordinate
+    double edges_ = 0;   ///< length of one edge of each triangle
 };
 
 } // namespace

@@ -128,6 +128,9 @@ void SurfaceBuilder::label(Soup& soup) const {
 }
 
 void SurfaceBuilder::remark(Soup& soup) const {
+    for (const std::string& remark : remarks) {
+        soup.remarks.push_back(fmt::format("{}: {}", soup.path, remark));
+    }
     if (polygons_ > 0) {
         soup.remarks.push_back(
             fmt::format("{}: {} planar polygons are cut into {} triangles", soup.path, polygons_, pieces_));

@@ -40,7 +40,8 @@ private:
 class SurfaceBuilder {
 public:
     Array<Point<3>> points;
-    std::vector<FaceLabels> labels; ///< the most specific first
+    std::vector<FaceLabels> labels;   ///< the most specific first
+    std::vector<std::string> remarks; ///< of the reader, without the path
 
     std::size_t triangles() const { return corners_.size() / 3; }
     /// The number of faces in the file, polygons counted once.

@@ -28,7 +28,7 @@ const char* type_of(const DataColumn& data) {
 
 std::string array_tag(const char* type, const std::string& name, int components) {
     return fmt::format("<PDataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"/>\n", type,
-                       escaped(name), components);
+                       xml_name(name), components);
 }
 
 std::string section(const char* name, const std::vector<DataColumn>& data) {

@@ -40,6 +40,13 @@ void write_values(AtomicFile& file, const Column<Given>& column) {
     file.write("\n");
 }
 
+std::string array_name(const std::string& name) {
+    if (name.empty()) {
+        throw FormatLimit{"legacy VTK does not hold an array without a name; name it, or write VTU"};
+    }
+    return percent_encoded(name);
+}
+
 /// meshio reads 64 bits only as "long".
 template<class Stored>
 constexpr const char* legacy_name() {
@@ -48,7 +55,7 @@ constexpr const char* legacy_name() {
 
 template<class Stored, class Given>
 void write_array(AtomicFile& file, const std::string& name, const Column<Given>& column) {
-    file.write(fmt::format("{} {} {} {}\n", percent_encoded(name), column.components(), column.rows(),
+    file.write(fmt::format("{} {} {} {}\n", array_name(name), column.components(), column.rows(),
                            legacy_name<Stored>()));
     write_values<Stored>(file, column);
 }
@@ -78,7 +85,7 @@ void write_texts(AtomicFile& file, const std::string& name, const std::vector<st
     for (const std::string& text : texts) {
         bytes += text.substr(0, text.find('\0')) + '\0';
     }
-    file.write(fmt::format("{} 1 {} unsigned_char\n", percent_encoded(name), bytes.size()));
+    file.write(fmt::format("{} 1 {} unsigned_char\n", array_name(name), bytes.size()));
     file.write(bytes);
     file.write(fmt::format("\nMETADATA\nCOMPONENT_NAMES\n{}\n\n", text_mark));
 }

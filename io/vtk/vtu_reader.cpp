@@ -4,6 +4,7 @@
 
 #include "io/files/byte_order.h"
 #include "io/files/file_cursor.h"
+#include "io/files/utf8.h"
 #include "io/mesh/corners_only.h"
 #include "io/mesh/mixed_cells.h"
 #include "io/mesh/readers.h"
@@ -565,7 +566,7 @@ private:
     /// An array's name, type and components, without values.
     DataArray empty_array(const pugi::xml_node& node) const {
         DataArray array;
-        array.name = node.attribute("Name").value();
+        array.name = as_utf8(node.attribute("Name").value());
         array.components = node.attribute("NumberOfComponents").as_int(1);
         if (array.components < 1) {
             fail(node, fmt::format("{} is no number of components", array.components));

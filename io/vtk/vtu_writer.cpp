@@ -108,7 +108,7 @@ public:
     void close(const std::string& section) { xml_ += fmt::format("</{}>\n", section); }
 
     void add(StoredArray array, bool is_field = false) {
-        std::string tag = fmt::format("<DataArray type=\"{}\" Name=\"{}\"", array.type, escaped(array.name));
+        std::string tag = fmt::format("<DataArray type=\"{}\" Name=\"{}\"", array.type, xml_name(array.name));
         if (array.components > 1) {
             tag += fmt::format(" NumberOfComponents=\"{}\"", array.components);
         }

@@ -4,6 +4,7 @@
 
 #include "io/files/byte_order.h"
 #include "io/files/file_cursor.h"
+#include "io/files/utf8.h"
 #include "io/mesh/corners_only.h"
 #include "io/mesh/mixed_cells.h"
 #include "io/mesh/readers.h"
@@ -502,7 +503,7 @@ private:
     /// The array of an element; of any number of rows if none is given.
     DataArray data_array(const pugi::xml_node& node, std::optional<std::size_t> rows) {
         DataArray array;
-        array.name = node.attribute("Name").value();
+        array.name = as_utf8(node.attribute("Name").value());
         const Item item = item_of(node);
         const auto width = static_cast<std::size_t>(width_of(node, item, rows));
         array.components = static_cast<int>(width);

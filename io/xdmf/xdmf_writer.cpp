@@ -164,7 +164,7 @@ private:
         file_.write(fmt::format("<Information Name=\"{}\">&lt;list/&gt;\n", xdmf_fields));
         for (const DataArray& array : mesh_.field_data) {
             const bool texts = std::holds_alternative<std::vector<std::string>>(array.values);
-            file_.write(fmt::format("<Information Name=\"{}\" Value=\"{}\">\n", escaped(array.name),
+            file_.write(fmt::format("<Information Name=\"{}\" Value=\"{}\">\n", xml_name(array.name),
                                     texts ? xdmf_texts : ""));
             write_item(unique("/field_data/", array.name), dataset(array));
             file_.write("</Information>\n");
@@ -174,8 +174,8 @@ private:
 
     void write_attribute(const char* center, const std::string& group, const std::string& name,
                          const Dataset& data) {
-        file_.write(fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n", escaped(name),
-                                attribute_type(data.components), center));
+        file_.write(fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n",
+                                xml_name(name), attribute_type(data.components), center));
         write_item(unique(group, name), data);
         file_.write("</Attribute>\n");
     }

@@ -3,6 +3,7 @@
 
 #include "slabhull/core/error.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace slabhull {
@@ -23,6 +24,11 @@ void March<D>::require_times(const std::vector<double>& times) const {
     if (times.size() < 2 || times.front() != state_.time || !(times.front() < times.back())) {
         throw UsageError(
             fmt::format("a slab must go from the march's time, {}, to a later one", state_.time));
+    }
+    const auto late = std::ranges::adjacent_find(times, [](double a, double b) { return !(a < b); });
+    if (late != times.end()) {
+        throw UsageError(
+            fmt::format("the levels of a slab must ascend, but {} comes after {}", *(late + 1), *late));
     }
     if (state_.cap.points.empty()) {
         throw UsageError("the march has given its initial cap up for a slab that was not accepted");

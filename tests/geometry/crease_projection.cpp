@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -116,6 +117,22 @@ TEST_CASE("the crease of a cylinder and a plane across it is met at its nearest 
     for (const Point<3>& x : random_points<3>(200, 4)) {
         const double r = std::hypot(x[0], x[1]);
         CHECK(distance(onto_all<3>(walls, x), Point<3>{2 * x[0] / r, 2 * x[1] / r, 3}) < 1e-14);
+    }
+}
+
+TEST_CASE("far from the origin, creases are met to the rounding of coordinates") {
+    for (const double far : {1e2, 1e3, 1e5, 4.321e6}) {
+        const Point<3> centre{far / 8, far, 120};
+        const Walls<3> walls{cylinder_surface(centre, {0, 0, 1}, 0.6),
+                             plane_surface<3>(offset<3>(centre, {0, 0, 0.25}), {0, 0, 1})};
+        const double rounding = std::numeric_limits<double>::epsilon() * far;
+        for (const Point<3>& away : random_points<3>(100, 0.1)) {
+            const Point<3> x = offset<3>(offset<3>(centre, {0.36, 0.48, 0.25}), away);
+            const Point<3> y = onto_all<3>(walls, x, 4);
+            CAPTURE(far, x, y);
+            REQUIRE(gap<3>(walls, y) <= std::max(1e-15, 4 * rounding));
+            REQUIRE(distance(x, y) <= 0.2);
+        }
     }
 }
 

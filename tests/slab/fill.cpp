@@ -161,6 +161,17 @@ TEMPLATE_TEST_CASE_SIG("each defect of a filling is found", "[fill]", ((int D), 
         filling.facet_attribute.back() = 3;
         require_found(planted.check(), {Defect::wrong_attribute});
     }
+    SECTION("a facet of the boundary is not listed") {
+        filling.facets.pop_back();
+        filling.facet_attribute.pop_back();
+        require_found(planted.check(), {Defect::hull_facet_added});
+        require_found(planted.check_bare(), {Defect::hull_facet_added});
+    }
+    SECTION("a listed facet is turned round") {
+        std::swap(filling.facets[1][0], filling.facets[1][1]);
+        require_found(planted.check(), {Defect::hull_facet_reversed});
+        require_found(planted.check_bare(), {Defect::hull_facet_reversed});
+    }
     SECTION("a wrong neighbour") {
         filling.neighbors[7][1] = 8;
         require_found(planted.check(), {Defect::wrong_neighbor});

@@ -152,6 +152,11 @@ TEMPLATE_TEST_CASE_SIG("a slab that takes the initial cap over is the slab propo
     StageClock clock;
     const Slab<D> proposed = march.propose({0, 0.1});
     CHECK_THROWS_AS(march.build({0.5, 0.6}, clock), UsageError); // from another time: nothing is taken
+    for (const std::vector<double>& times :
+         {std::vector<double>{0, 0.15, 0.1}, {0, 0.1, 0.1}, {0, 0, 0.1}, {0, std::nan(""), 0.1}}) {
+        CHECK_THROWS_AS(march.propose(times), UsageError);
+        CHECK_THROWS_AS(march.build(times, clock), UsageError);
+    }
     CHECK(same_mesh(before, march.state().cap));
     Slab<D> slab = march.build({0, 0.1}, clock);
     CHECK(slab.hull.points == proposed.hull.points);

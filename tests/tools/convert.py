@@ -35,6 +35,61 @@ class ConvertTest(ProgramTest):
             self.assertIn(word, result.err)
 
 
+OFF = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+
+
+class NothingInSilence(ConvertTest):
+    """What a format or a number cannot hold is refused or told."""
+
+    def legacy(self, name):
+        """A file with an array over points."""
+        path = self.dir / "named.vtk"
+        path.write_text("# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n"
+                        f"POLYGONS 1 4\n3 0 1 2\nPOINT_DATA 3\nFIELD FieldData 1\n{name} 1 3 double\n1 2 3\n")
+        return path
+
+    def test_names_of_arrays_that_a_format_does_not_have_are_refused(self):
+        for name, target, words in (("a%00b", "x.vtu", "a character in its name that XML does not have"),
+                                    ("a%01b", "x.pvtu", "XML"), ("a%EF%BF%BEb", "x.vtu", "XML"),
+                                    ("a%0Ab", "x.msh", "a line end in the name of an array"),
+                                    ("a%22b", "x.msh", "a double quote")):
+            with self.subTest(name=name, target=target):
+                self.refused_arguments(5, [words, "rename it"], self.legacy(name), self.dir / target)
+                self.assertFalse((self.dir / target).exists())
+        path = self.convert(self.legacy("ab"), "named.vtu", "--encoding", "ascii")
+        path.write_text(path.read_text().replace('Name="ab"', 'Name=""'))
+        self.refused_arguments(5, ["without a name", "name it"], path, self.dir / "x.vtk")
+
+    def test_names_in_latin_1_become_utf_8_in_xml(self):
+        path = self.convert(self.legacy("Temp%E9rature"), "x.vtu", "--encoding", "ascii")
+        self.assertIn('Name="Température"', path.read_text(encoding="utf-8"))
+
+    def test_arrays_of_msh_that_lack_rows_are_told(self):
+        msh = self.convert(self.legacy("heat"), "x.msh", "--encoding", "ascii", "--version", "2.2")
+        text = msh.read_text()
+        self.assertIn("\n3\n1 1\n2 2\n3 3\n", text)
+        for few in ("\n2\n1 1\n2 2\n", "\n3\n1 1\n2 2\n1 3\n"):
+            msh.write_text(text.replace("\n3\n1 1\n2 2\n3 3\n", few))
+            self.convert(msh, "y.vtu", told=['the array "heat" is left out: it has no value for some nodes'])
+        msh.write_text(text + "$ElementNodeData\n$EndElementNodeData\n")
+        self.convert(msh, "y.vtu", told=["$ElementNodeData is left out"])
+
+    def test_a_scale_beyond_the_largest_number_is_refused(self):
+        (self.dir / "a.off").write_text(OFF.replace("1 0 0\n0 1 0", "1e10 0 0\n0 1 0"))
+        self.refused_arguments(4, ["scaled by 1e+300, point 1 is beyond the largest number"], self.dir / "a.off",
+                               self.dir / "b.off", "--scale", 1e300)
+
+    def test_an_stl_that_is_coarse_beside_its_edges_is_told(self):
+        for place, told in (("0 0 0", ()), ("1e4 0 0", ["STL has single precision", "steps of 0.0012"])):
+            x, y, z = map(float, place.split())
+            corners = [(x, y, z), (x + 1, y, z), (x, y + 1, z), (x, y, z + 1)]
+            text = "solid a\n" + "".join(
+                "facet normal 0 0 0\nouter loop\n" + "".join("vertex {} {} {}\n".format(*corners[k]) for k in facet) +
+                "endloop\nendfacet\n" for facet in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))) + "endsolid a\n"
+            (self.dir / "a.stl").write_text(text)
+            self.convert(self.dir / "a.stl", "a.vtu", told=told)
+
+
 class RoundTrips(ConvertTest):
     def test_a_hull_as_vtu_comes_back_with_the_same_bytes(self):
         for text in HULLS:

@@ -66,6 +66,25 @@ class Filling(ProgramTest):
                 self.assertEqual(slabhull("check", mesh["file"]).code, 0)
             self.assertEqual(slabhull("slice", filling, "--time", "7", "--out", self.dir / "x.vtu").code, 2)
 
+    def test_wrong_claims_of_the_boundary_are_found_in_files_of_every_dimension(self):
+        for case, split in ((ELLIPSOID, "A"), (CIRCLE, "centre")):
+            out, _ = self.build(self.case(case.format(split)), out=f"out_{split}")
+            hull = out / "slab_0000.vtu"
+            self.fill(hull, self.dir / "f.mfem")
+            lines = (self.dir / "f.mfem").read_text().split("\n")
+            first = lines.index("boundary") + 2
+            words = lines[first].split()
+            count = str(int(lines[first - 1]) - 1)
+            for planted, defect in (([" ".join([str(int(words[0]) % 3 + 1), *words[1:]])], "wrong-attribute"),
+                                    ([" ".join([*words[:2], words[3], words[2], *words[4:]])], "hull-facet-reversed"),
+                                    ([], "hull-facet-added")):
+                with self.subTest(split=split, defect=defect):
+                    size = [lines[first - 1] if planted else count]
+                    (self.dir / "wrong.mfem").write_text("\n".join(lines[:first - 1] + size + planted + lines[first + 1:]))
+                    result = slabhull("check", self.dir / "wrong.mfem", "--hull", hull, "--json")
+                    self.assertEqual(result.code, 1, result.out + result.err)
+                    self.assertEqual(json.loads(result.out)["defects"], {defect: 1})
+
     @unittest.skipUnless(has("h5py"), "no h5py")
     def test_hdf5_and_mfem_hold_the_same_mesh(self):
         out, _ = self.build(self.case(ELLIPSOID.format("A")))

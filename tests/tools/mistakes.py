@@ -493,6 +493,17 @@ mistake("The body is in metres, the box in millimetres", code=DONE, command="bui
 
 # --- Caps
 
+mistake("A size beyond the whole numbers of doubles", case=CIRCLE + "[cap]\nsize = -9007199254740993\n",
+        says="case.toml: line 5: cap.size: ", todo="expected a positive number, not -9007199254740992")
+
+mistake("A key of very many parts", case=CIRCLE + ".".join("a" * 100000) + " = 1\n",
+        says="case.toml: line 4: no TOML: a key of more than 1000 parts; ",
+        todo="write key = value, a line each, under [table] headings")
+
+mistake("A patch whose boundary is adapted and is not", says="case.toml: line 7: adapt.boundary: ",
+        case=CIRCLE + '[cap]\nreuse = "adapt"\n[adapt]\nboundary = false\n[adapt.body]\nsize = 0.1\n',
+        todo="expected true, or nothing, beside [adapt.body], which adapts the boundary")
+
 mistake("A bound of TetGen in 2D", case=CIRCLE + "[cap]\nquality = 1.2\n", code=DONE,
         says="warning: cap.quality has no effect in 2D: ", todo="leave it out")
 
@@ -641,8 +652,8 @@ mistake("An output folder that cannot be made", case=CIRCLE, command="build case
 
 mistake("--resume with another case", case=CIRCLE + "[time]\nlayers = 9\n", command="build case.toml --out run --resume",
         code=DONE, needs="run",
-        says="warning: the case file is not what it was when run/march.state was written: slabs that are "
-             "there stay as they are, and what is left to do follows the new file; ",
+        says="warning: the case file, or a table or surface that it names, is not what it was when run/march.state was "
+             "written: slabs that are there stay as they are, and what is left to do follows the new file; ",
         todo="to build all of it anew, run without --resume")
 
 mistake("--resume where nothing was built", case=CIRCLE + "[time]\nlayers = 1\n", command="build case.toml --out runs --resume",
@@ -679,8 +690,8 @@ mistake("A view of a mesh in space", command="view plate.msh --out page.html", f
         todo="give a file that slabhull build or fill wrote (slab_0000.vtu)")
 
 mistake("A slice of a mesh in space", command="slice plate.msh --time 0.5 --out cut.vtu", files={"plate.msh": SQUARE}, code=INPUT,
-        says="plate.msh: a mesh in space, not the hull of a slab; ",
-        todo="give a file that slabhull build wrote (slab_0000.vtu)")
+        says="plate.msh: neither the hull of a slab nor a filling that can be cut; ",
+        todo="give a hull that slabhull build wrote (slab_0000.vtu), or a filling as .h5 or .getfem")
 
 mistake("A slice at a time outside of the slab", command="slice run/slab_0000.vtu --time 1.5 --out cut.vtu", needs="run",
         says="--time: t = 1.5 is in none of the files: run/slab_0000.vtu lasts from 0 to 1; ",

@@ -100,6 +100,18 @@ class Interrupted(ProgramTest):
         self.assertEqual(contents(out), expected)
         self.assertEqual((out / "march.state").read_bytes(), before)
 
+    def test_a_table_that_was_changed_since_is_told(self):
+        table = self.dir / "spin.csv"
+        table.write_text("time, angle\n0, 0\n1, 0.2\n")
+        case = self.case('[initial]\nexperiment = "circle"\nlevel = 1\n[motion.body]\nkind = "rotation"\ncentre = [0, 0]\n'
+                         'table = "spin.csv"\n[time]\nlayers = 8\n')
+        out, _ = self.build(case)
+        for angle, told in ((0.2, False), (0.3, True)):
+            table.write_text(f"time, angle\n0, 0\n1, {angle}\n")
+            result = slabhull("build", case, "--out", out, "--resume")
+            self.assertEqual(result.code, 0, result.err)
+            self.assertEqual("or a table or surface that it names, is not what it was" in result.err, told, result.err)
+
     def test_without_a_checkpoint_it_begins_and_says_so(self):
         case, expected, _ = self.reference(2, "circle", 2)
         result = slabhull("build", case, "--out", self.dir / "out", "--resume")

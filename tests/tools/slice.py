@@ -240,7 +240,7 @@ class Refusals(SliceTest):
         hull = self.hull()
         out = ("--time", "0.2", "--out", self.dir / "kept.vtu")
         self.refuse(3, ["none.vtu"], self.dir / "none.vtu", *out)
-        self.refuse(3, ["mesh in space"], hull.with_name("cap_0001.vtu"), *out)
+        self.refuse(3, ["neither the hull"], hull.with_name("cap_0001.vtu"), *out)
         (self.dir / "junk.msh").write_text("junk")
         self.refuse(3, ["junk.msh"], self.dir / "junk.msh", *out)
         self.refuse(3, ["junk.msh"], hull, self.dir / "junk.msh", *out)
@@ -250,7 +250,7 @@ class Refusals(SliceTest):
     def test_a_section_is_no_hull_and_no_plane_mesh(self):
         out, _ = self.build(self.case(SPHERE))
         self.slice(out / "slab_0000.vtu", "--time", "0.2", "--out", self.dir / "ball.vtu")
-        self.refuse(3, ["not the hull"], self.dir / "ball.vtu", "--time", "0.2", "--out", self.dir / "a.vtu")
+        self.refuse(3, ["neither the hull"], self.dir / "ball.vtu", "--time", "0.2", "--out", self.dir / "a.vtu")
         result = slabhull("check", self.dir / "ball.vtu")
         self.assertEqual(result.code, 3)
         self.assertIn("plane mesh", result.err)

@@ -296,7 +296,9 @@ private:
             for (std::size_t k = begin; k < end; ++k) {
                 const auto vertex = static_cast<Index>(first + k);
                 const Index soon = usage.one[std::min(k + ahead, end - 1)];
-                stars->prefetch(soon == no_index ? 0 : soon);
+                if (soon != no_index) {
+                    stars->prefetch(soon);
+                }
                 if (usage.one[k] == no_index) {
                     survey.unused.at(first + begin).push_back(vertex);
                     continue;

@@ -15,7 +15,7 @@ struct CheckpointFiles {
     std::uint32_t cap_checksum = 0;     ///< of that file
     std::uint64_t journal_size = 0;     ///< bytes of the slabs' journal that belong to slabs accepted
     std::uint32_t journal_checksum = 0; ///< of those bytes
-    std::uint32_t case_checksum = 0;    ///< of the case file
+    std::uint32_t case_checksum = 0;    ///< of the case file, and of tables and surfaces that it names
 };
 
 /// Writes where a march stands, so that it can go on from there: all but what the cap's file holds. A small

@@ -6,6 +6,8 @@
 #include "slabhull/slab/slab.h"
 
 #include <map>
+#include <string>
+#include <vector>
 
 namespace slabhull {
 
@@ -15,6 +17,8 @@ struct CaseSettings {
     SlabSettings<D> slab;
     std::map<PatchNumber, DisplacementMatch>
         matches; ///< of names that move by displacement files, by the first patch
+    std::vector<std::string>
+        remarks; ///< of the readers of projection files; for a user to read, with the path
 };
 
 /// How a case wants its caps meshed.

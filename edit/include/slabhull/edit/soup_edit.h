@@ -54,7 +54,8 @@ Welded weld(io::Soup& soup, double tolerance);
 /// Renumbers points and cells along a space-filling curve, by their places in space (D = 2: in space-time).
 void renumber_along_curve(io::Soup& soup);
 
-/// Multiplies space by `factor`; time stays.
+/// Multiplies space by `factor`; time stays. Throws GeometryError naming the first point that is not finite
+/// then.
 void scale(io::Soup& soup, double factor);
 
 /// Drops what an adapted hull's cap was held to. To fill the hull, its cap is adapted again, bit for bit,

@@ -76,10 +76,10 @@ struct PlacedSurface {
 /// without crossing; then the result is as uncertain as their intersection. By `moved`, the caller judges
 /// whether a point is near enough. With one surface the same as project().
 /// Needs: at least one surface; `extent`, the size of the mesh, relative to which rounding is judged; `moved`
-/// empty or as long as `x`. Afterwards each point is within 1e-13 extent of each surface, or within the sum
-/// of their tolerances if these are larger. Throws GeometryError if a placement is not a similarity, or
-/// naming a point near which the surfaces do not meet. Cost: some 5 closest points per point and surface.
-/// The result does not depend on the number of threads.
+/// empty or as long as `x`. Afterwards each point is within 1e-13 extent of each surface, within 16
+/// roundings of its coordinates or within the sum of their tolerances, whichever is largest. Throws
+/// GeometryError if a placement is not a similarity, or naming a point near which the surfaces do not meet.
+/// Cost: some 5 closest points per point and surface. The result does not depend on the number of threads.
 /// Source: Newton's method for f_i = 0 with the surfaces' own tangent planes, safeguarded by alternating
 /// projections (von Neumann).
 template<int D>
