@@ -5,6 +5,7 @@
 
 #include "slabhull/core/error.h"
 #include "slabhull/core/index.h"
+#include "slabhull/core/memory.h"
 
 #include <fmt/core.h>
 
@@ -418,6 +419,15 @@ Surface<D> box_surface(const Point<D>& min, const Point<D>& max, double size, co
         throw LimitError{fmt::format(
             "a box from {} to {} with edges of size {} has more than 2^32 facets; give a larger size",
             to_text(min), to_text(max), size)};
+    }
+    constexpr double bytes_per_facet = 100; // the surface and its half-edges take more
+    const double bytes = bytes_per_facet * static_cast<double>(box_facet_count<D>(divisions));
+    const auto free = static_cast<double>(available_memory());
+    if (!(bytes < free)) {
+        throw LimitError{fmt::format(
+            "a box from {} to {} with edges of size {} has some {:.2g} facets: they take "
+            "{:.3g} GB at least, and {:.3g} GB are free; give a larger size",
+            to_text(min), to_text(max), size, bytes / bytes_per_facet, 1e-9 * bytes, 1e-9 * free)};
     }
     const BoundaryNumbering<D> number{divisions};
     Surface<D> surface;

@@ -31,19 +31,24 @@ double time_between(const Point<N>& p, const Point<N>& q) {
 }
 
 /// Bounds the products of lengths that a measure sums up, by which its rounding is judged: D differences in
-/// space, or D - 1 of them and one in time. Times and lengths have units of their own, so neither stands for
-/// the other.
+/// space, or D - 1 of them and one in time.
 template<int D>
-double measure_scale(double length, double time) {
-    double scale = std::max(length, time);
+double measure_scale(double length, double last) {
+    double scale = last;
     for (int k = 1; k < D; ++k) {
         scale *= length;
     }
     return scale;
 }
 
+/// The largest distance between corners in space, and in time.
+struct CellExtent {
+    double length;
+    double time;
+};
+
 template<int D, int N>
-double measure_scale(const std::array<Point<N>, D + 1>& corners) {
+CellExtent extent_of(const std::array<Point<N>, D + 1>& corners) {
     double square = 0;
     double time = 0;
     for (std::size_t i = 0; i <= D; ++i) {
@@ -52,7 +57,7 @@ double measure_scale(const std::array<Point<N>, D + 1>& corners) {
             time = std::max(time, time_between<D, N>(corners[i], corners[j]));
         }
     }
-    return measure_scale<D>(std::sqrt(square), time);
+    return {std::sqrt(square), time};
 }
 
 /// A quick bound: no edge is longer than twice the longest at the first corner (5 instead of 4 allows for
@@ -65,7 +70,8 @@ bool is_far_from_degenerate(double measure, const std::array<Point<N>, D + 1>& c
         square = std::max(square, squared_distance_in_space<D, N>(corners[0], corners[i]));
         time = std::max(time, time_between<D, N>(corners[0], corners[i]));
     }
-    return measure * measure > degenerate * degenerate * measure_scale<D>(5 * square, 5 * time * time);
+    return measure * measure >
+           degenerate * degenerate * measure_scale<D>(5 * square, 5 * std::max(square, time * time));
 }
 
 /// Pairs of a vertex and the first one with the same coordinates, ascending.
@@ -159,7 +165,20 @@ bool is_degenerate(const std::array<Point<N>, D + 1>& corners, double measure) {
     if (is_far_from_degenerate<D, N>(measure, corners)) {
         return false;
     }
-    return measure <= degenerate * measure_scale<D, N>(corners);
+    const auto [length, time] = extent_of<D, N>(corners);
+    const double in_space = degenerate * measure_scale<D>(length, length);
+    if constexpr (N == D) {
+        return measure <= in_space;
+    } else { // times and lengths have units of their own, so a part of the normal is judged by what it sums
+             // up
+        const Point<N> normal = simplex_normal<D>(corners);
+        double square = 0;
+        for (std::size_t k = 0; k < D; ++k) {
+            square += normal[k] * normal[k];
+        }
+        return std::sqrt(square) <= degenerate * measure_scale<D>(length, time) &&
+               std::abs(normal[D]) <= in_space;
+    }
 }
 
 template<int D, int N>

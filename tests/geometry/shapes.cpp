@@ -205,6 +205,8 @@ TEST_CASE("boxes that are empty, or have too many parts to count, are refused") 
     CHECK_THROWS_AS(box_surface<3>({0, 0, 0}, {1, 1, 1}, 0, walls), UsageError);
     CHECK_THROWS_AS(box_surface<3>({0, 0, 0}, {1, 1, 1}, 1e-300, walls), LimitError);
     CHECK_THROWS_AS(box_surface<3>({0, 0, 0}, {1, 1, 1}, 2e-5, walls), LimitError);
+    CHECK_THROWS_WITH(box_surface<2>({0, 0}, {1, 2.1e9}, 1, walls),
+                      Catch::Contains("GB are free; give a larger size"));
 }
 
 TEST_CASE("an ellipse is a closed hole with its vertices on it, at nearly equal distances") {

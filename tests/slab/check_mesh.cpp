@@ -54,6 +54,31 @@ TEMPLATE_TEST_CASE_SIG("a mesh turned over as a whole is sound, and says so", ""
     CHECK(report.measure == Approx(std::pow(2, D)));
 }
 
+TEMPLATE_TEST_CASE_SIG("a mesh that closes on itself has no boundary", "", ((int D), D), 2, 3) {
+    Grid<D> mesh;
+    for (Index v = 0; v < D + 2; ++v) { // the facets of a simplex of dimension D + 1
+        Point<D> point{};
+        if (v < D) {
+            point[v] = 1;
+        } else if (v == D) {
+            point.fill(-0.5);
+        }
+        mesh.points.push_back(point);
+        Simplex<D> cell{};
+        for (Index k = 0; k <= D; ++k) {
+            cell[k] = k < v ? k : k + 1;
+        }
+        if (v % 2 == 1) {
+            std::swap(cell[0], cell[1]);
+        }
+        mesh.cells.push_back(cell);
+    }
+    const MeshReport report = check(mesh);
+    CHECK(report.boundary_facets == 0);
+    CHECK(report.count(Defect::open_facet) == 0);
+    CHECK(report.count(Defect::inverted_cell) == 1); // around the last point, and over it
+}
+
 TEMPLATE_TEST_CASE_SIG("cells in the reverse order of the others", "", ((int D), D), 2, 3) {
     auto mesh = specimens::full_box<D>(3);
     std::swap(mesh.cells[4][0], mesh.cells[4][1]);
