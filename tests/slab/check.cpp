@@ -646,7 +646,8 @@ void scale_times(Claims& claims, double unit) {
 TEMPLATE_TEST_CASE_SIG("a cell without a measure", "", ((int D), D), 2, 3) {
     // A new vertex in the middle of a cell's facet on the side cuts the two cells there, one of the parts
     // flat.
-    const double unit = GENERATE(1.0, 0x1p-30, 0x1p-60, 0x1p40); // of time: layers much shorter or longer than edges
+    const double unit =
+        GENERATE(1.0, 0x1p-30, 0x1p-60, 0x1p40); // of time: layers much shorter or longer than edges
     auto claims = body_claims<D>();
     scale_times(claims, unit);
     REQUIRE(check(claims).clean());
