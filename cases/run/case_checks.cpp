@@ -32,16 +32,22 @@ std::vector<std::filesystem::path> files_found_by(const std::filesystem::path& p
     }
 }
 
-void each_file_of_motion(const std::string& key, const MotionSpec& motion, const VisitFile& visit) {
+/// A motion, or all steps of a sequence, too.
+void each_step(const std::string& key, const MotionSpec& motion,
+               const std::function<void(const std::string& key, const MotionSpec& step)>& visit) {
+    visit(key, motion);
+    for (std::size_t k = 0; k < motion.steps.size(); ++k) {
+        each_step(fmt::format("{}.steps[{}]", key, k), motion.steps[k], visit);
+    }
+}
+
+void each_file_of_step(const std::string& key, const MotionSpec& motion, const VisitFile& visit) {
     visit(key + (motion.kind == MotionSpec::Kind::rigid_table ? ".file" : ".table"), motion.table);
     for (std::size_t k = 0; k < motion.displacements.files.size(); ++k) {
         visit(fmt::format("{}.files[{}]", key, k), motion.displacements.files[k]);
     }
     for (const std::filesystem::path& file : files_found_by(motion.displacements.pattern)) {
         visit(key + ".pattern", file);
-    }
-    for (std::size_t k = 0; k < motion.steps.size(); ++k) {
-        each_file_of_motion(fmt::format("{}.steps[{}]", key, k), motion.steps[k], visit);
     }
 }
 
@@ -63,7 +69,9 @@ void each_file(const Case& the_case, const VisitFile& visit) {
         each_file_of_bodies(the_case, std::get<InitialBodies>(the_case.initial), visit);
     }
     for (const auto& [patch, motion] : the_case.motions) {
-        each_file_of_motion("motion." + patch, motion, visit);
+        each_step("motion." + patch, motion, [&](const std::string& key, const MotionSpec& step) {
+            each_file_of_step(key, step, visit);
+        });
     }
     for (const auto& [patch, projection] : the_case.projections) {
         visit(fmt::format("project.{}.file", patch), projection.file);
@@ -124,18 +132,6 @@ void warn_of_turn(const Case& the_case, const std::string& key, const MotionSpec
                         key, motion.rate, turns, follows ? "the slab" : "the layer", the_case.start,
                         the_case.start + layer, motion.rate * std::numbers::pi / 180));
     }
-    for (std::size_t k = 0; k < motion.steps.size(); ++k) {
-        warn_of_turn(the_case, fmt::format("{}.steps[{}]", key, k), motion.steps[k], listener);
-    }
-}
-
-void each_table(const MotionSpec& motion, const std::function<void(const std::filesystem::path&)>& visit) {
-    if (!motion.table.empty()) {
-        visit(motion.table);
-    }
-    for (const MotionSpec& step : motion.steps) {
-        each_table(step, visit);
-    }
 }
 
 } // namespace
@@ -152,14 +148,17 @@ void require_files(const Case& the_case) {
 std::uint32_t checksum_of_motions(const Case& the_case) {
     io::Checksum sum;
     const auto add = [&sum](std::uint32_t value) { sum.add(&value, sizeof value); };
+    const auto add_file = [&add](const std::filesystem::path& file) {
+        if (!file.empty()) {
+            add(io::checksum_of(file));
+        }
+    };
     add(the_case.checksum);
     for (const auto& [patch, motion] : the_case.motions) {
-        each_table(motion, [&](const std::filesystem::path& table) { add(io::checksum_of(table)); });
+        each_step(patch, motion, [&](const std::string&, const MotionSpec& step) { add_file(step.table); });
     }
     for (const auto& [patch, projection] : the_case.projections) {
-        if (!projection.file.empty()) {
-            add(io::checksum_of(projection.file));
-        }
+        add_file(projection.file);
     }
     return sum.value();
 }
@@ -196,7 +195,9 @@ Case case_in_ranks(Case the_case, int ranks) {
 
 void warn_of_turns(const Case& the_case, const Listener& listener) {
     for (const auto& [patch, motion] : the_case.motions) {
-        warn_of_turn(the_case, "motion." + patch, motion, listener);
+        each_step("motion." + patch, motion, [&](const std::string& key, const MotionSpec& step) {
+            warn_of_turn(the_case, key, step, listener);
+        });
     }
 }
 

@@ -179,8 +179,7 @@ template<int D>
 class Runner {
 public:
     Runner(const Case& the_case, const RunOptions& options, const Listener& listener)
-        : case_{the_case}, listener_{listener}, ranks_{options.ranks}, checksum_{checksum_of_motions(
-                                                                           the_case)},
+        : case_{the_case}, listener_{listener}, ranks_{options.ranks},
           meter_{listener, the_case.start, the_case.end, the_case.slabs}, watched_{meter_.watch()} {
         if (!case_.check_embedding) {
             listener_.warning("check.embedding is false: nothing proves that the hulls do not cross "
@@ -192,6 +191,7 @@ public:
         if (first()) {
             io::make_folder(case_.directory);
             lock_.emplace(case_.directory);
+            checksum_ = checksum_of_motions(case_);
             io::remove_stale_parts(case_.directory);
         }
         meet();
@@ -257,7 +257,7 @@ private:
             return false;
         }
         Checkpoint<D> checkpoint = read_checkpoint<D>(path);
-        if (checkpoint.files.case_checksum != checksum_) {
+        if (first() && checkpoint.files.case_checksum != checksum_) {
             listener_.warning(fmt::format(
                 "the case file, or a table or surface that it names, is not what it was when {} was written: "
                 "slabs that are there stay as they "
@@ -1022,7 +1022,7 @@ private:
     const Listener& listener_;
     Communicator* ranks_; ///< nullptr: this process alone
     std::optional<io::FolderLock> lock_;
-    std::uint32_t checksum_; ///< of the inputs that a resumed run goes on with
+    std::uint32_t checksum_ = 0; ///< of the inputs that a resumed run goes on with; on the first rank
     ProgressMeter meter_;
     ProgressScope watched_;
     double file_bytes_per_cell_ = 0;          ///< in the last slab

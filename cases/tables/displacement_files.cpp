@@ -2,12 +2,12 @@
 #include "cases/tables/displacement_files.h"
 
 #include "cases/tables/displacement_table.h"
-#include "core/place_in_words.h"
 #include "geometry/basics/point_finder.h"
 
 #include "slabhull/core/error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -154,10 +154,11 @@ private:
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const std::size_t other = std::exchange(vertex_of_row[rows[i]], i);
             if (other != rows.size()) {
-                refuse(i, fmt::format("{} is the nearest row, but that of the vertex at {}, too; is the "
-                                      "tolerance {:.6g} too large?",
-                                      table_.row_name(rows[i]), place_in_words(vertices_.points[other]),
-                                      tolerance_));
+                refuse(i,
+                       fmt::format("{} is the nearest row, but that of the vertex at ({:.9g}), too; is the "
+                                   "tolerance {:.6g} too large?",
+                                   table_.row_name(rows[i]), fmt::join(vertices_.points[other], ", "),
+                                   tolerance_));
             }
         }
     }
@@ -189,8 +190,8 @@ private:
 
     [[noreturn]] void refuse(std::size_t vertex, const std::string& what) const {
         const TrackId track = vertices_.tracks[vertex];
-        throw InputError(fmt::format("{}: vertex of track {} of patch {} at {}: {}", table_.path, track,
-                                     vertices_.patch, place_in_words(vertices_.points[vertex]), what),
+        throw InputError(fmt::format("{}: vertex of track {} of patch {} at ({:.9g}): {}", table_.path, track,
+                                     vertices_.patch, fmt::join(vertices_.points[vertex], ", "), what),
                          {{"track", track, vertices_.patch}});
     }
 
@@ -280,11 +281,12 @@ private:
             const double off = distance(places[i], vertices_.points[i]);
             if (off > match_.tolerance) {
                 throw InputError(
-                    fmt::format("{}: the vertex of track {} of patch {} at {} is displaced by {:.6g} at "
-                                "the start of the case, t = {}, already; displacements count from the mesh "
-                                "at the start",
-                                files_.front().string(), vertices_.tracks[i], vertices_.patch,
-                                place_in_words(vertices_.points[i]), off, start),
+                    fmt::format(
+                        "{}: the vertex of track {} of patch {} at ({:.9g}) is displaced by {:.6g} at "
+                        "the start of the case, t = {}, already; displacements count from the mesh "
+                        "at the start",
+                        files_.front().string(), vertices_.tracks[i], vertices_.patch,
+                        fmt::join(vertices_.points[i], ", "), off, start),
                     {{"track", vertices_.tracks[i], vertices_.patch}});
             }
         }

@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 #include <limits>
 #include <set>
-#include <string_view>
 #include <utility>
 
 namespace slabhull::io {
@@ -21,12 +20,12 @@ namespace slabhull::io {
 namespace {
 
 /// Checks a name, which MSH puts in double quotes without an escape for them.
-const std::string& quotable(const std::string& name, const char* whose) {
+const std::string& quotable(const std::string& name, const char* whose, const char* other_format) {
     if (name.find_first_of("\"\n\r") != std::string::npos) {
         throw FormatLimit{
             fmt::format("MSH has no place for a double quote or a line end in the name of {}, as "
                         "in {}; rename it, or write {}",
-                        whose, name, whose == std::string_view{"a group"} ? "VTU" : "legacy VTK")};
+                        whose, name, other_format)};
     }
     return name;
 }
@@ -151,7 +150,7 @@ private:
                 if (group.number > 0 && !group.name.empty() &&
                     named.emplace(part.dimension, group.number).second) {
                     lines += fmt::format("{} {} \"{}\"\n", part.dimension, group.number,
-                                         quotable(group.name, "a group"));
+                                         quotable(group.name, "a group", "VTU"));
                 }
             }
         }
@@ -340,7 +339,7 @@ private:
 
     /// Gmsh reads reals of 3 or 9 components; all others are written component by component.
     void write_data(const char* name, const DataColumn& data, const MshTags& tags) {
-        quotable(data.name, "an array");
+        quotable(data.name, "an array", "legacy VTK");
         const int components = components_of(data);
         if (data.type == Scalar::float64 && (components == 3 || components == 9)) {
             write_components(name, data.name, data, 0, components, tags);

@@ -125,13 +125,14 @@ private:
 
     /// Compares the boundary with the hull's cells, if there is a hull, and with the claimed facets.
     void compare_boundary() {
+        const Array<SortedFacet<D>> found = sorted_facets<D>(open_);
         if (hull_ != nullptr) {
-            compare_facets(hull_->cells, "the hull");
+            compare_facets(found, hull_->cells, "the hull");
         }
         const bool told = findings_.any( // of the same facets, most likely
             {Defect::hull_facet_lost, Defect::hull_facet_added, Defect::hull_facet_reversed});
         if (!filling_.facets.empty() && !told) {
-            compare_facets(filling_.facets, "the list of boundary facets");
+            compare_facets(found, filling_.facets, "the list of boundary facets");
         }
         if (filling_.facet_attribute.given()) {
             each_row(filling_.facet_attribute, [&](std::size_t, const std::int64_t* attribute) {
@@ -140,9 +141,9 @@ private:
         }
     }
 
-    void compare_facets(std::span<const Simplex<D>> expected, const char* whose) {
+    void compare_facets(const Array<SortedFacet<D>>& found, std::span<const Simplex<D>> expected,
+                        const char* whose) {
         const Array<SortedFacet<D>> wanted = sorted_facets<D>(expected);
-        const Array<SortedFacet<D>> found = sorted_facets<D>(open_);
         auto want = wanted.begin();
         auto have = found.begin();
         while (want != wanted.end() || have != found.end()) {

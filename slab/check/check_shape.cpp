@@ -169,8 +169,8 @@ bool is_degenerate(const std::array<Point<N>, D + 1>& corners, double measure) {
     const double in_space = degenerate * measure_scale<D>(length, length);
     if constexpr (N == D) {
         return measure <= in_space;
-    } else { // times and lengths have units of their own, so a part of the normal is judged by what it sums
-             // up
+    } else {
+        // Times and lengths have units of their own, so each part of the normal is judged in its own.
         const Point<N> normal = simplex_normal<D>(corners);
         double square = 0;
         for (std::size_t k = 0; k < D; ++k) {

@@ -2,7 +2,6 @@
 #include "slabhull/slab/slice.h"
 
 #include "core/pieces.h"
-
 #include "core/place_in_words.h"
 #include "slab/check/findings.h"
 #include "slab/slice/active_cells.h"

@@ -817,7 +817,7 @@ def contents(folder):
 
 def names_a_place(entry):
     """A message names a file, an option, a key's table, a patch or the command."""
-    words = [*entry.files, "case.toml", "motion.", "initial.", "patch", "cap.", "velocity formula", "slabhull --help", "run/"]
+    words = [*entry.files, "case.toml", "motion.", "initial.", "patch", "cap.size", "cap.quality", "velocity formula", "slabhull --help", "run/"]
     words += [word for word in entry.command.split() if len(word) > 3]
     return any(word in entry.says + entry.todo for word in words)
 
